@@ -24,6 +24,7 @@ enum class StepMethod : std::uint8_t { Ranade, Spielauer, Lai, Lam, Carrica };
 struct HomingConfig {
     int sequence = 0;       // axes with lower numbers home first; equal ones together
     bool in_place = false;  // no switch: where the axis stands is park_mm
+    std::string input;      // its switch, with use Home: the coordinator homes the axis; empty: its device's own switch
     bool toward_min = true;
     double search_velocity_mm_s = 0;   // not above start_velocity: the switch stops the pulses at once
     double latch_velocity_mm_s = 0;    // the slow second approach that sets the zero

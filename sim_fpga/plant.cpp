@@ -82,6 +82,17 @@ void put_probe(Plant& plant, const InputConfig& input, const MotorConfig& motor)
                     input.active_low);
 }
 
+/// The switch of an axis that homes by touch, if it is wired to the device of the axis's own motor. That of another axis
+/// does not follow this slide.
+void put_home_switch(Plant& plant, const InputConfig& input, const MachineConfig& machine, const MotorConfig& motor) {
+    const bool is_own = motor.axis && motor.moves_one_axis && machine.axes[*motor.axis].homing.input == input.name;
+    if (!is_own) { return; }
+    const double steps = (motor.homing.switch_position_mm - motor.plant.start_position_mm) * motor.steps_per_mm;
+    const bool toward_min = motor.homing.toward_min;
+    plant.put_probe(static_cast<unsigned>(input.channel), toward_min ? steps_down(steps) : steps_up(steps), toward_min,
+                    input.active_low);
+}
+
 }  // namespace
 
 Plant plant_of(const MachineConfig& machine, const MotorConfig& motor) {
@@ -91,6 +102,7 @@ Plant plant_of(const MachineConfig& machine, const MotorConfig& motor) {
         if (input.motor != motor.name) { continue; }
         set_input(plant, input, false);
         if (input.use == InputUse::Probe) { put_probe(plant, input, motor); }
+        if (input.use == InputUse::Home) { put_home_switch(plant, input, machine, motor); }
     }
     return plant;
 }

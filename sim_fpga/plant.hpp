@@ -124,7 +124,7 @@ private:
 };
 
 /// The plant of a motor of the machine. Nobody touches its inputs: all are open, except those of probes at and beyond
-/// plant.probe_at_mm.
+/// plant.probe_at_mm and those of home switches.
 Plant plant_of(const MachineConfig& machine, const MotorConfig& motor);
 /// Closes or opens an input of the machine whose pin is at this plant.
 inline void set_input(Plant& plant, const InputConfig& input, bool closed) {

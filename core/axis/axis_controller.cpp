@@ -161,7 +161,7 @@ void AxisController::receive(const AxisInputs& inputs, AxisLoop& loop) {
     following_.take(inputs.edges, loop);
     for (const Frame& frame : inputs.frames) {
         if (!owner_.is_from_owner(frame.term)) { continue; }
-        const bool may_begin = is_resting() && condition_.is_ready();
+        const bool may_begin = is_resting() && condition_.may_follow();
         const Position here = condition_.position.in_machine(device_.status().position);
         following_.take(frame, may_begin ? std::optional(here) : std::nullopt, loop);
     }
@@ -191,7 +191,34 @@ void AxisController::carry_out(const AxisCommand& order, AxisLoop& loop) {
         case AxisCommandKind::MoveOwn: return own_.move(order, is_resting(), loop);
         case AxisCommandKind::Halt: return own_.halt(loop);
         case AxisCommandKind::Jog: return own_.jog(order, is_resting(), loop);
+        case AxisCommandKind::Assume: return assume_place(order, loop);
+        case AxisCommandKind::TakePlace: return take_place(order, loop);
     }
+}
+
+FaultCode AxisController::refusal_of_place() const {
+    if (!is_resting() || device_.status().moving) { return FaultCode::Busy; }
+    if (condition_.phases.phase() == AxisPhase::Fault) { return FaultCode::InFault; }
+    return device_.is_present() ? FaultCode::None : FaultCode::DeviceMissing;
+}
+
+/// Begins a homing by frames, or goes on with it.
+void AxisController::assume_place(const AxisCommand& order, AxisLoop& loop) {
+    if (const FaultCode why = refusal_of_place(); why != FaultCode::None) { return loop.refuse(order, why); }
+    condition_.phases.clear_fault();
+    condition_.position.begin_homing();
+    condition_.phases.happen(AxisEvent::HomingBegins);
+    condition_.position.assume_zero(device_.status().position.count() - order.target_steps);
+    condition_.orders.end(FaultCode::None);
+}
+
+void AxisController::take_place(const AxisCommand& order, AxisLoop& loop) {
+    if (const FaultCode why = refusal_of_place(); why != FaultCode::None) { return loop.refuse(order, why); }
+    if (!condition_.position.is_assumed()) { return loop.refuse(order, FaultCode::NotHomed); }
+    condition_.position.set_zero(device_.status().position.count() - order.target_steps, device_.status());
+    condition_.phases.happen(AxisEvent::Zeroed);
+    loop.notice({AxisNotice::Kind::Homed, FaultCode::None, 0});
+    condition_.orders.end(FaultCode::None);
 }
 
 /// Enters the emergency stop also at rest, so that messages still on their way do not move this axis before a person
@@ -210,6 +237,7 @@ void AxisController::reset(const AxisCommand& order, AxisLoop& loop) {
     if (!is_resting()) { return loop.refuse(order, FaultCode::Busy); }
     if (is_stop_closed()) { return loop.refuse(order, FaultCode::EmergencyStopInput); }
     condition_.phases.reset(homed());
+    if (!homed()) { condition_.position.lose(); }
     loop.notice({AxisNotice::Kind::Reset, FaultCode::None, 0});
     condition_.orders.end(FaultCode::None);
 }

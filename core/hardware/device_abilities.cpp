@@ -80,7 +80,7 @@ std::uint64_t debounced(const DeviceSetup& setup) {
 std::uint64_t input_channels(const MachineConfig& machine, const MotorConfig& motor) {
     return inputs_with(machine, motor.name, InputUse::EmergencyStop) |
            inputs_with(machine, motor.name, InputUse::Door) | inputs_with(machine, motor.name, InputUse::Program) |
-           inputs_with(machine, motor.name, InputUse::Probe);
+           inputs_with(machine, motor.name, InputUse::Probe) | inputs_with(machine, motor.name, InputUse::Home);
 }
 
 std::uint64_t modulated(const DeviceSetup& setup) {

@@ -172,8 +172,9 @@ struct ClockReply {
 
 /// MoveOwn: the axis moves to a place by itself, not coordinated with others. Halt: it brakes and abandons a move of
 /// its own. Jog: it moves to a place by itself while the order is renewed. Approach: it moves to its home switch and
-/// waits there, for the other motors of its axis.
-enum class AxisCommandKind : std::uint8_t { Home, Reset, StopNow, MoveOwn, Halt, Jog, Approach };
+/// waits there, for the other motors of its axis. Assume: it takes frames as if it rested at a place, to be homed by
+/// them. TakePlace: it truly rests there, so it is homed.
+enum class AxisCommandKind : std::uint8_t { Home, Reset, StopNow, MoveOwn, Halt, Jog, Approach, Assume, TakePlace };
 
 /// An order of the coordinator to one axis. It is repeated each slot until the axis's state reports it as done.
 struct AxisCommand {
@@ -181,7 +182,7 @@ struct AxisCommand {
     std::uint64_t sequence = 0;  // rises within a term; an axis carries out each once
     std::uint32_t axis = 0;
     AxisCommandKind kind = AxisCommandKind::Home;
-    std::int64_t target_steps = 0;  // MoveOwn, Jog: machine coordinates
+    std::int64_t target_steps = 0;  // MoveOwn, Jog, Assume, TakePlace: machine coordinates
     std::optional<Ticks> ticks;     // MoveOwn: how long it lasts; nullopt: as fast as the axis's limits allow
     double speed_mm_s = 0;          // Jog: the greatest speed, above 0
     Tick until;                     // Jog: the axis begins to brake by then, unless a repetition names a later time

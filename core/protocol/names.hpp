@@ -38,8 +38,9 @@ constexpr std::string_view name_of(CommandKind kind) {
 }
 
 constexpr std::string_view name_of(AxisCommandKind kind) {
-    return detail::pick_name(
-        std::array<std::string_view, 7>{"home", "reset", "stop now", "move", "halt", "jog", "approach"}, kind);
+    return detail::pick_name(std::array<std::string_view, 9>{"home", "reset", "stop now", "move", "halt", "jog",
+                                                             "approach", "assume place", "take place"},
+                             kind);
 }
 
 /// As records and reports name them.

@@ -91,6 +91,7 @@ InputUse read_use(proto::InputUse use) {
         case proto::DOOR: return InputUse::Door;
         case proto::PROGRAM: return InputUse::Program;
         case proto::PROBE: return InputUse::Probe;
+        case proto::HOME: return InputUse::Home;
         default: return InputUse::EmergencyStop;
     }
 }
@@ -102,8 +103,9 @@ InputConfig read_input(const proto::Input& message, const std::string& place, Pr
     reader.require(message.has_channel(), message.channel(), input.channel, place + ".channel");
     reader.require(message.has_use(), read_use(message.use()), input.use, place + ".use");
     if (!proto::InputUse_IsValid(message.use())) {
-        reader.refuse(place + ".use", fmt::format("{}.use is {}; it must be EMERGENCY_STOP, DOOR, PROGRAM or PROBE",
-                                                  place, int{message.use()}));
+        reader.refuse(place + ".use",
+                      fmt::format("{}.use is {}; it must be EMERGENCY_STOP, DOOR, PROGRAM, PROBE or HOME", place,
+                                  int{message.use()}));
     }
     input.active_low = message.active_low();
     if (message.has_debounce_ms()) { input.debounce_ms = message.debounce_ms(); }

@@ -156,6 +156,7 @@ HomingConfig read_homing(const proto::Homing& message, const AxisConfig& axis, b
     HomingConfig homing;
     homing.sequence = message.sequence();
     homing.in_place = message.in_place();
+    homing.input = message.input();
     homing.toward_min = message.has_toward_min() ? message.toward_min() : homing.toward_min;
     homing.search_velocity_mm_s =
         message.has_search_velocity_mm_s() ? message.search_velocity_mm_s() : axis.start_velocity_mm_s;

@@ -77,6 +77,7 @@ void write_homing(const HomingConfig& homing, proto::Homing& message) {
     message.set_switch_position_mm(homing.switch_position_mm);
     message.set_park_mm(homing.park_mm);
     if (homing.in_place) { message.set_in_place(true); }
+    if (!homing.input.empty()) { message.set_input(homing.input); }
 }
 
 void write_plant(const PlantConfig& plant, proto::Plant& message) {
@@ -202,7 +203,7 @@ void write_board(const BoardConfig& board, proto::Board& message) {
 }
 
 void write_input(const InputConfig& input, proto::Input& message) {
-    constexpr std::array kUses{proto::EMERGENCY_STOP, proto::DOOR, proto::PROGRAM, proto::PROBE};
+    constexpr std::array kUses{proto::EMERGENCY_STOP, proto::DOOR, proto::PROGRAM, proto::PROBE, proto::HOME};
     message.set_name(input.name);
     input.at_board ? message.set_board(input.motor) : message.set_motor(input.motor);
     message.set_channel(input.channel);
@@ -210,7 +211,8 @@ void write_input(const InputConfig& input, proto::Input& message) {
     message.set_active_low(input.active_low);
     message.set_debounce_ms(input.debounce_ms);
     if (input.number) { message.set_number(*input.number); }
-    if (input.use == InputUse::Probe) { message.set_max_overshoot_mm(input.max_overshoot_mm); }
+    const bool ends_moves = input.use == InputUse::Probe || input.use == InputUse::Home;
+    if (ends_moves) { message.set_max_overshoot_mm(input.max_overshoot_mm); }
 }
 
 void write_axis(const AxisConfig& axis, proto::Axis& message) {

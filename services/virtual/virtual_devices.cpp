@@ -37,7 +37,7 @@ void mislead_newest_frame(RegisterWindow& window) {
 
 VirtualDevices::VirtualDevices(const MachineConfig& machine, const MachineClocks& clocks,
                                const std::vector<LinkDelay>& links, std::uint64_t seed, Tick now)
-    : clocks_(clocks), machine_(machine), motors_(motors_of(machine)), seed_(seed) {
+    : clocks_(clocks), machine_(machine), motors_(motors_of(machine)), seed_(seed), switches_(machine) {
     for (std::size_t i = 0; i < motors_.size(); ++i) {
         devices_.push_back({.window = RegisterWindow::in_process(), .simulated = nullptr, .link = {}});
         const bool has_link = i < links.size() && links[i].most > Ticks{};
@@ -81,6 +81,16 @@ void VirtualDevices::set_input(std::size_t input, bool closed, Tick now) {
     const std::size_t motor = motor_named(machine_, config.motor).value();
     advance(motor, now);
     lockstep::set_input((*this)[motor].plant(), config, closed);
+}
+
+void VirtualDevices::follow_switches(Tick now) {
+    if (switches_.none()) { return; }
+    std::vector<double> motors_mm;
+    for (std::size_t i = 0; i < devices_.size(); ++i) {
+        advance(i, now);
+        motors_mm.push_back((*this)[i].plant().position_mm());
+    }
+    switches_.follow(motors_mm, [&](std::size_t input, bool closed) { set_input(input, closed, now); });
 }
 
 void VirtualDevices::apply(const VirtualFault& fault, bool begins, Tick now) {

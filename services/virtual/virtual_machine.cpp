@@ -152,6 +152,7 @@ void VirtualMachine::advance() {
         take_edge(faults_.take());
     } else {
         now_ = schedule_.at(*process);
+        devices_.follow_switches(now_);
         run_loop(*process);
     }
     client_.receive(post_.collect(now_, post_.client()), now_);

@@ -21,6 +21,8 @@ struct AxisCondition {
 
     /// The axis stands in a known place without a fault.
     bool is_ready() const { return position.homed() && phases.phase() == AxisPhase::Standby && !phases.has_fault(); }
+    /// It may follow frames from where it rests.
+    bool may_follow() const { return is_ready() || (position.is_assumed() && !phases.has_fault()); }
 };
 
 struct AxisLoop {

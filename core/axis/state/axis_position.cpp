@@ -31,7 +31,12 @@ FaultCode AxisPosition::claim(const DeviceStatus& device, bool device_failed) {
 
 void AxisPosition::begin_homing() {
     unproved_ = FaultCode::None;
-    homed_ = false;
+    homed_ = is_assumed_ = false;
+}
+
+void AxisPosition::assume_zero(std::int64_t zero_count) {
+    zero_count_ = zero_count;
+    is_assumed_ = true;
 }
 
 /// Steps that the motor lost before the homing no longer count.
@@ -39,10 +44,11 @@ void AxisPosition::set_zero(std::int64_t zero_count, const DeviceStatus& device)
     zero_count_ = zero_count;
     encoder_zero_ = device.encoder_count - device.position.count();
     homed_ = true;
+    is_assumed_ = false;
 }
 
 void AxisPosition::lose_device() {
-    homed_ = false;
+    homed_ = is_assumed_ = false;
     unproved_ = FaultCode::DeviceMissing;
 }
 

@@ -20,6 +20,8 @@ public:
 
     bool is_board() const { return is_board_; }
     bool homed() const { return homed_; }
+    /// The axis is not homed, but follows frames as if it were.
+    bool is_assumed() const { return is_assumed_; }
     /// Why the kept position did not home the axis; None once it was homed.
     FaultCode unproved() const { return unproved_; }
     /// Machine coordinates are the device's counts minus this.
@@ -29,8 +31,9 @@ public:
     /// axis, otherwise why not.
     FaultCode claim(const DeviceStatus& device, bool device_failed);
     void begin_homing();
+    void assume_zero(std::int64_t zero_count);
     void set_zero(std::int64_t zero_count, const DeviceStatus& device);
-    void lose() { homed_ = is_board_ && homed_; }
+    void lose() { homed_ = is_board_ && homed_, is_assumed_ = false; }
     void lose_device();
 
     Position in_machine(Position device) const { return device - Displacement::steps(zero_count_); }
@@ -53,6 +56,7 @@ private:
     bool is_board_ = false;
     std::int64_t most_following_error_ = 0;
     bool homed_ = false;
+    bool is_assumed_ = false;
     FaultCode unproved_ = FaultCode::DeviceMissing;
     std::int64_t zero_count_ = 0;
     std::int64_t encoder_zero_ = 0;  // encoder minus count, at the homing

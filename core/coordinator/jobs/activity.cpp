@@ -21,6 +21,7 @@ struct PhaseOf {
     MachinePhase operator()(const activity::OwnMoves& moves) const { return of_motion(moves, MachinePhase::Running); }
     MachinePhase operator()(const activity::Jogging& jog) const { return of_motion(jog, MachinePhase::Jogging); }
     MachinePhase operator()(const activity::OnPath& path) const {
+        if (path.task.job.kind == JobKind::Home) { return of_motion(path, MachinePhase::Homing); }
         return of_motion(path, path.jog ? MachinePhase::Jogging : MachinePhase::Running);
     }
     MachinePhase operator()(const activity::Paused&) const { return MachinePhase::Paused; }

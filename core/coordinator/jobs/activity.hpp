@@ -9,6 +9,7 @@
 #include "core/coordinator/jobs/own_targets.hpp"
 #include "core/coordinator/jobs/path_task.hpp"
 #include "core/coordinator/jobs/skew_watch.hpp"
+#include "core/coordinator/jobs/touch_homing.hpp"
 #include "core/coordinator/jogs/jogs.hpp"
 #include "core/coordinator/jogs/path_jog.hpp"
 #include "core/coordinator/state/machine_phases.hpp"
@@ -59,12 +60,16 @@ struct Motion {
     Intent intent = Intent::GoOn;
     MachineFault fault;  // Intent::Abort
 };
-/// Axes home, each by itself.
+/// Axes home, each by itself, or one after the other by touch.
 struct Homing : Motion {
     MachineJob job;
     HomingSequence sequence;
     SkewWatch skew;
     AxisSet approaching = 0;  // motors that wait for each other at their switches before they home
+    AxisSet by_touch = 0;     // axes of the group in progress that are still to home by touch
+    std::optional<TouchHoming> touch;
+    bool has_assumed = false;  // all motors that were not homed assume places
+    bool has_parked = false;   // all axes that home by touch, together
 };
 /// Axes move to their places, each by itself.
 struct OwnMoves : Motion {
@@ -80,8 +85,9 @@ struct Jogging : Motion {
 /// Axes move together, in an epoch of frames.
 struct OnPath : Motion {
     PathTask task;
-    std::optional<Paused> pause;  // the job to whose place the axes return, or in whose pause they are jogged
-    std::optional<PathJog> jog;   // the task is a jog
+    std::optional<Paused> pause;        // the job to whose place the axes return, or in whose pause they are jogged
+    std::optional<PathJog> jog;         // the task is a jog
+    std::optional<Homing> homing = {};  // the task is a move of an axis that homes by touch
 };
 
 }  // namespace activity

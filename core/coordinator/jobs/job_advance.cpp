@@ -1,11 +1,15 @@
 #include "core/coordinator/jobs/job_advance.hpp"
 
+#include <bit>
 #include <utility>
 
+#include "core/check.hpp"
 #include "core/coordinator/jobs/job_commands.hpp"
 
 namespace lockstep {
 namespace {
+
+std::size_t first_of(AxisSet set) { return static_cast<std::size_t>(std::countr_zero(set)); }
 
 /// An epoch came to rest by itself or by a client's hold or stop.
 void settle_interrupted(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, CoordinatorLoop& loop) {
@@ -58,11 +62,39 @@ void settle(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, Coo
     }
 }
 
+/// A move of axes that home by touch is over. `probed`: it ended at a touch.
+void go_on_homing(activity::Homing& homing, const PathTask& task, bool probed, JobLifecycle& jobs,
+                  CoordinatorLoop& loop) {
+    if (probed) { jobs.record_probe(task, loop); }
+    jobs.record_end(task.job, JobOutcome::Done, loop);
+    if (homing.touch) { homing.touch->moved(probed ? jobs.path().probe() : std::nullopt, loop); }
+}
+
+/// If the move ends otherwise than at its end or a touch, homing ends with it, unless it begins again.
+void settle_homing_move(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    activity::Homing homing = *std::move(path.homing);
+    const bool goes_on = path.intent == Intent::GoOn;
+    const auto probed = goes_on ? jobs.path().end_probe(path.task, end, loop) : std::nullopt;
+    if (goes_on && (probed || end.kind == EpochEnd::Kind::Complete)) {
+        loop.out.epoch_end = {end.kind, probed ? Intent::Stop : Intent::GoOn};
+        jobs.path().end_epoch(path.task, end, loop, loop.out.events);
+        go_on_homing(homing, path.task, probed.has_value(), jobs, loop);
+        return jobs.activity().become(MachineEvent::HomingBegins, std::move(homing), loop.out);
+    }
+    settle(path, end, jobs, loop);
+    if (auto* const again = jobs.activity().as<activity::OnPath>()) {
+        again->homing = std::move(homing);
+    } else {
+        jobs.record_end(homing.job, jobs.count().outcome().value_or(JobOutcome::Failed), loop);
+    }
+}
+
 void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& loop) {
     if (path.jog && path.intent == Intent::GoOn && path.jog->is_released(loop.now)) {
         jobs.brake_on_path(Intent::Stop, loop);
     }
     if (const auto end = jobs.path().advance(path.task, loop, loop.out)) {
+        if (path.homing) { return settle_homing_move(path, *end, jobs, loop); }
         const auto next = path.jog ? path.jog->next(loop) : std::nullopt;
         const Tick renewed = path.jog ? path.jog->renewed() : Tick{};
         settle(path, *end, jobs, loop);
@@ -72,9 +104,116 @@ void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& l
         return;
     }
     if (!jobs.path().is_overdue()) { return; }
+    const auto homing = path.homing;
     // The fault names an axis that does not come to rest.
     jobs.fail({FaultCode::NotAtRest, loop.axes.moving(loop.slot).value_or(0)}, loop);
     jobs.fail_at_rest(path.fault, loop);
+    if (homing) { jobs.record_end(homing->job, JobOutcome::Failed, loop); }
+}
+
+bool is_of_homing(AxisCommandKind kind) {
+    return kind == AxisCommandKind::Home || kind == AxisCommandKind::Approach || kind == AxisCommandKind::Assume ||
+           kind == AxisCommandKind::TakePlace;
+}
+
+/// Where axes are assumed to be when homing by touch begins: those without a switch at their parks, the others in the
+/// middle of their travels.
+AxisCounts first_places(AxisSet motors, const LoopView& loop) {
+    AxisCounts places = loop.counts();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const AxisConfig& axis = loop.machine.axes[i];
+        if ((loop.kinematics.motors_of_axes(axis_bit(i)) & motors) == 0) { continue; }
+        const double middle_mm = (axis.position_min_mm + axis.position_max_mm) / 2;
+        places[i] = to_steps(axis, axis.homing.in_place ? axis.homing.park_mm : middle_mm);
+    }
+    return places;
+}
+
+/// Every motor takes part in each frame, so all that are not homed assume places.
+void assume_places(const activity::Homing& homing, CoordinatorLoop& loop) {
+    AxisSet motors = motors_homed_by_touch(homing.sequence.axes(), loop);
+    for (std::size_t m = 0; m < loop.axes.size(); ++m) {
+        if (loop.axes.state(m) && !loop.axes.state(m)->homed) { motors |= axis_bit(m); }
+    }
+    const MotorCounts places = loop.kinematics.motors_at(first_places(motors, loop));
+    for (std::size_t m = 0; m < loop.axes.size(); ++m) {
+        if (has_axis(motors, m)) { loop.order(m, AxisCommandKind::Assume).target_steps = places[m]; }
+    }
+}
+
+/// Moves the assumed place of one axis. Each motor rests on a whole step, and keeps by how much it differs from the
+/// place of the other axes.
+void assume_place(std::size_t axis, std::int64_t place, CoordinatorLoop& loop) {
+    const AxisCounts here = loop.counts();
+    const AxisSet motors = loop.kinematics.motors_of_axes(axis_bit(axis));
+    for (std::size_t m = 0; m < loop.axes.size(); ++m) {
+        if (!has_axis(motors, m)) { continue; }
+        const std::int64_t shift =
+            loop.kinematics.motor_at(m, here, axis, place) - loop.kinematics.motor_at(m, here, axis, here[axis]);
+        const std::int64_t count = loop.axes.state(m)->position.count();
+        loop.order(m, AxisCommandKind::Assume).target_steps = count + shift;
+    }
+}
+
+/// The axes are truly where their motors assume to be.
+void take_places(const activity::Homing& homing, CoordinatorLoop& loop) {
+    const AxisSet motors = motors_homed_by_touch(homing.sequence.axes(), loop);
+    for (std::size_t m = 0; m < loop.axes.size(); ++m) {
+        if (!has_axis(motors, m)) { continue; }
+        const std::int64_t count = loop.axes.state(m)->position.count();
+        loop.order(m, AxisCommandKind::TakePlace).target_steps = count;
+    }
+}
+
+/// An axis that has homed parks to the nearest step. Its motors rest on whole steps, so this makes the parks of all
+/// axes exact.
+Program way_to_parks(const activity::Homing& homing, const LoopView& loop) {
+    const AxisSet motors = motors_homed_by_touch(homing.sequence.axes(), loop);
+    const AxisCounts here = loop.counts();
+    Program way{.name = "park", .axes = {}, .start_mm = {}, .blocks = {}};
+    ProgramMove move{.target_mm = {}, .rapid = true, .arc = {}, .mode = PathMode::ExactStop};
+    for (std::size_t i = 0; i < here.size(); ++i) {
+        const AxisConfig& axis = loop.machine.axes[i];
+        if ((loop.kinematics.motors_of_axes(axis_bit(i)) & motors) == 0) { continue; }
+        way.axes.push_back(axis.name);
+        way.start_mm.push_back(to_mm(axis, static_cast<double>(here[i])));
+        move.target_mm.push_back(axis.homing.park_mm);
+    }
+    way.blocks.push_back({{}, std::move(move)});
+    return way;
+}
+
+void begin_homing_move(activity::Homing& homing, const Program& move, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    const auto program = commands::known_program(move, loop.machine);
+    check(program.has_value(), "the rules of the machine's file bound how far a search goes on behind its touch");
+    const AxisCounts here = loop.counts();
+    if (const auto fits = jobs.path().planner().check_start((*program)->head(), here); !fits) {
+        return jobs.fail({fits.error().fault}, loop);
+    }
+    PathTask task{.job = jobs.begin_in_pause(JobKind::Home, *program, here, loop), .from = here};
+    const PathNext next = jobs.path().begin_leg(task, loop, loop.out.events);
+    if (!std::holds_alternative<EpochBegun>(next)) {  // it touches already, or no motor has to move
+        return go_on_homing(homing, task, std::holds_alternative<Probed>(next), jobs, loop);
+    }
+    activity::OnPath moving{{}, std::move(task), {}, {}, homing};
+    jobs.activity().become(MachineEvent::EpochBegins, std::move(moving), loop.out);
+}
+
+void advance_touch(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    TouchHoming& touch = *homing.touch;
+    switch (touch.next(loop)) {
+        case TouchHoming::Next::Wait: return;
+        case TouchHoming::Next::Assume: return assume_place(touch.axis(), touch.place(), loop);
+        case TouchHoming::Next::Move: return begin_homing_move(homing, touch.program(loop), jobs, loop);
+        case TouchHoming::Next::End:
+            assume_place(touch.axis(), touch.place(), loop);
+            homing.by_touch &= ~axis_bit(touch.axis());
+            return homing.touch.reset();
+        case TouchHoming::Next::Fail: {
+            const AxisSet motors = loop.kinematics.motors_of_axes(axis_bit(touch.axis()));
+            return jobs.fail({touch.fault(), first_of(motors)}, loop);
+        }
+    }
 }
 
 void advance_homing(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoop& loop) {
@@ -84,10 +223,16 @@ void advance_homing(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoo
         const auto& order = loop.orders.newest(i);
         const auto& state = loop.axes.state(i);
         const bool refused = state && state->command_fault != FaultCode::None;
-        const bool homes = order && (order->kind == AxisCommandKind::Home || order->kind == AxisCommandKind::Approach);
-        if (refused && homes) { return jobs.fail({state->command_fault, i}, loop); }
+        if (refused && order && is_of_homing(order->kind)) { return jobs.fail({state->command_fault, i}, loop); }
     }
-    if (!home_next_group(homing, loop)) { jobs.end(JobOutcome::Done, loop); }
+    if (homing.touch) { return advance_touch(homing, jobs, loop); }
+    if (home_next_group(homing, loop)) { return; }
+    if (!homing.has_assumed) { return jobs.end(JobOutcome::Done, loop); }
+    if (!std::exchange(homing.has_parked, true)) {
+        return begin_homing_move(homing, way_to_parks(homing, loop), jobs, loop);
+    }
+    homing.has_assumed = false;
+    take_places(homing, loop);
 }
 
 /// The motors that the job ordered to a place. `targets`: where they must be, if the job was not stopped.
@@ -126,7 +271,8 @@ void report_on_path(const activity::OnPath& moving, const PathRunner& path, Mach
     if (moving.pause) {
         state.remaining_s += path.seconds_after_pause(moving.pause->task);
         state.progress = moving.pause->task.progress.share();
-    } else if (moving.intent == Intent::GoOn && !moving.jog && !moving.task.probe) {  // others cannot continue these
+    } else if (moving.intent == Intent::GoOn && !moving.jog && !moving.homing &&
+               !moving.task.probe) {  // others cannot continue these
         path.report_rests(moving.task, state, loop.axes);
     }
 }
@@ -149,10 +295,17 @@ bool home_next_group(activity::Homing& homing, CoordinatorLoop& loop) {
         loop.order_each(std::exchange(homing.approaching, 0), AxisCommandKind::Home);
         return true;
     }
+    if (homing.by_touch != 0) {
+        if (!std::exchange(homing.has_assumed, true)) { assume_places(homing, loop); }
+        homing.touch.emplace(first_of(homing.by_touch), loop.machine);
+        return true;
+    }
     const AxisSet group = homing.sequence.next_group(loop.machine);
-    homing.approaching = approaching_motors(group, loop);
+    homing.by_touch = axes_homed_by_touch(group, loop.machine);
+    const AxisSet by_touch = motors_homed_by_touch(homing.sequence.axes(), loop);
+    homing.approaching = approaching_motors(group, loop) & ~by_touch;
     loop.order_each(homing.approaching, AxisCommandKind::Approach);
-    loop.order_each(loop.kinematics.motors_of_axes(group) & ~homing.approaching, AxisCommandKind::Home);
+    loop.order_each(loop.kinematics.motors_of_axes(group) & ~homing.approaching & ~by_touch, AxisCommandKind::Home);
     homing.skew.begin(loop.axes);
     return group != 0;
 }

@@ -63,23 +63,24 @@ CommandResult check_ready(const MachineActivity& activity, const LoopView& loop)
 }
 
 /// A motor that moves several axes must home with all of them, because their places are known together or not at all.
-/// Only the carriage of a delta has a switch.
 CommandResult check_homes_alone(AxisSet axes, const LoopView& loop) {
     for (std::size_t m = 0; m < loop.kinematics.motors().size(); ++m) {
+        const MotorConfig& motor = loop.kinematics.motors()[m];
         const AxisSet moved = loop.kinematics.axes_of_motor(m);
-        if ((moved & axes) == 0 || loop.kinematics.motors()[m].moves_one_axis) { continue; }
+        if ((moved & axes) == 0 || motor.moves_one_axis) { continue; }
         if ((moved & ~axes) != 0) {
             return refuse(FaultCode::BadProgram,
                           loop.label_of(m) + " moves several axes, which can only be homed together: name all of them");
         }
-        if (!loop.kinematics.motors()[m].homing.in_place) { continue; }
+        if (!motor.homing.in_place) { continue; }  // the carriage of a delta, which has a switch
         for (std::size_t i = 0; i < loop.machine.axes.size(); ++i) {
             const AxisConfig& axis = loop.machine.axes[i];
-            if (!has_axis(moved, i) || axis.homing.in_place) { continue; }
+            if (!has_axis(moved, i) || axis.homing.in_place || !axis.homing.input.empty()) { continue; }
             return refuse(FaultCode::BadProgram,
-                          "the switch of axis " + axis.name + " would have to stop motors of several devices, " +
-                              "which is not possible yet; put the axis to its park_mm by hand, and set "
-                              "homing { in_place: true } in its block");
+                          "the switch of axis " + axis.name +
+                              " cannot stop motors of several devices; name an input "
+                              "with use: HOME in its homing { input: ... }, or put the axis to its park_mm by hand, "
+                              "and set homing { in_place: true } in its block");
         }
     }
     return {};
@@ -108,19 +109,6 @@ CommandResult check_place(const AxisCounts& place, const LoopView& loop) {
         FaultCode::AwayFromPause,
         "axes were moved in the pause, but the job continues only from the place where it paused. Way back: " +
             text_of_way(way) + ". To let the machine return on this way and continue: lockstep resume --yes");
-}
-
-/// A program of the coordinator itself.
-std::expected<std::shared_ptr<const KnownProgram>, Refusal> known_program(const Program& own,
-                                                                          const MachineConfig& machine) {
-    auto program =
-        KnownProgram::begin(machine, own.head(), std::make_unique<MemoryRows>(KnownProgram::row_width(own.head())));
-    check(program.has_value(), "a program of the coordinator names axes of the machine");
-    if (const auto taken = program->append(own.blocks); !taken) {
-        return refuse(taken.error().why, taken.error().text);
-    }
-    program->end();
-    return std::make_shared<const KnownProgram>(*std::move(program));
 }
 
 CommandResult begin_return(const activity::Paused& pause, JobLifecycle& jobs, CoordinatorLoop& loop) {
@@ -168,12 +156,26 @@ CommandResult interrupt_alone(Intent intent, JobLifecycle& jobs, CoordinatorLoop
 
 }  // namespace
 
+std::expected<std::shared_ptr<const KnownProgram>, Refusal> known_program(const Program& own,
+                                                                          const MachineConfig& machine) {
+    auto program =
+        KnownProgram::begin(machine, own.head(), std::make_unique<MemoryRows>(KnownProgram::row_width(own.head())));
+    check(program.has_value(), "a program of the coordinator names axes of the machine");
+    if (const auto taken = program->append(own.blocks); !taken) {
+        return refuse(taken.error().why, taken.error().text);
+    }
+    program->end();
+    return std::make_shared<const KnownProgram>(*std::move(program));
+}
+
 CommandResult home(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop) {
     if (auto ready = check_ready(jobs.activity(), loop); !ready) { return ready; }
     const AxisSet all = all_axes(loop.machine.axes.size());
     if ((command.axes & ~all) != 0) { return refuse(FaultCode::BadProgram, "the machine does not have this axis"); }
     const AxisSet axes = command.axes == 0 ? all : command.axes;
     if (auto alone = check_homes_alone(axes, loop); !alone) { return alone; }
+    const bool is_by_touch = axes_homed_by_touch(axes, loop.machine) != 0;
+    if (auto clocks = check_clocks(loop); is_by_touch && !clocks) { return clocks; }
     activity::Homing homing{{},
                             jobs.begin(JobKind::Home, command, nullptr, {}, loop),
                             HomingSequence(axes),
@@ -293,10 +295,8 @@ CommandResult interrupt(Intent intent, JobLifecycle& jobs, CoordinatorLoop& loop
     if (!activity.in_motion()) { return refuse(FaultCode::NothingToDo, "no motion is in progress"); }
     auto* const path = activity.as<activity::OnPath>();
     if (path == nullptr) { return interrupt_alone(intent, jobs, loop); }
-    if (path->jog) {
-        path->jog->finish();
-        intent = Intent::Stop;
-    }
+    if (path->jog) { path->jog->finish(); }
+    if (path->jog || path->homing) { intent = Intent::Stop; }
     if (intent == Intent::Hold && activity.intent() > Intent::Hold) {
         return refuse(FaultCode::Busy, "the machine is already stopping, and the job ends with the stop");
     }

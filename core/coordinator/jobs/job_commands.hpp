@@ -1,10 +1,17 @@
 // Commands of clients to the job: carried out, or refused with the reason and the remedy.
 #pragma once
 
+#include <expected>
+#include <memory>
+
 #include "core/coordinator/jobs/job_lifecycle.hpp"
 #include "core/coordinator/state/refusal.hpp"
 
 namespace lockstep::commands {
+
+/// A program of the coordinator itself.
+std::expected<std::shared_ptr<const KnownProgram>, Refusal> known_program(const Program& own,
+                                                                          const MachineConfig& machine);
 
 CommandResult home(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop);
 CommandResult run(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop);

@@ -54,6 +54,18 @@ MachineJob JobLifecycle::begin_in_pause(JobKind kind, std::shared_ptr<const Know
     return job;
 }
 
+void JobLifecycle::record_end(const MachineJob& job, JobOutcome outcome, CoordinatorLoop& loop) {
+    loop.out.jobs.push_back(ended(job, outcome));
+}
+
+void JobLifecycle::record_probe(const PathTask& task, CoordinatorLoop& loop) {
+    loop.out.jobs.push_back({.kind = JobEvent::Kind::Probed,
+                             .job = task.job.number,
+                             .job_kind = task.job.kind,
+                             .epoch = task.has_moved ? path_.epoch() : 0,
+                             .probe = path_.probe()});
+}
+
 void JobLifecycle::follow(PathTask task, const PathNext& next, std::optional<activity::Paused> pause,
                           CoordinatorLoop& loop) {
     if (std::holds_alternative<EpochBegun>(next)) {
@@ -62,11 +74,7 @@ void JobLifecycle::follow(PathTask task, const PathNext& next, std::optional<act
     }
     if (const Pause* const why = std::get_if<Pause>(&next)) { return this->pause({std::move(task), *why, {}}, loop); }
     if (const Probed* const probed = std::get_if<Probed>(&next)) {
-        loop.out.jobs.push_back({.kind = JobEvent::Kind::Probed,
-                                 .job = task.job.number,
-                                 .job_kind = task.job.kind,
-                                 .epoch = task.has_moved ? path_.epoch() : 0,
-                                 .probe = path_.probe()});
+        record_probe(task, loop);
         if (probed->why == FaultCode::None) { return finish(task.job, JobOutcome::Done, loop); }
         return end_early(task.job, task.job.program->last_line(), probed->why, loop);
     }

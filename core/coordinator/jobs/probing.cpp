@@ -12,14 +12,12 @@ MotorPositions positions_of(const LoopView& loop) {
     return at;
 }
 
-/// Within so many slots every change of an input is known from the states of its axis: the input follows its pin, the
-/// device is read, the axis decides in its next loop, publishes, and its state arrives.
+}  // namespace
+
 Slot slots_until_known(const InputConfig& input, const MachineConfig& machine) {
     const double debounce = input.debounce_ms * 1e-3 * machine.ticks_per_second();
     return static_cast<Slot>(debounce / static_cast<double>(machine.slot_ticks().value)) + 3 + rules::kHopSlots;
 }
-
-}  // namespace
 
 std::optional<Probed> Probing::end_at_begin(const PathTask& task, const TouchInput& input, bool moves,
                                             const LoopView& loop) {
@@ -38,7 +36,7 @@ bool Probing::may_touch_yet(const PathTask& task, const EpochEnd& end, const Epo
     const auto& input = runner.touch();
     if (!input || !rests_on_path || runner.touched(loop.axes.views())) { return false; }
     rested_ = rested_.value_or(loop.slot);
-    const InputConfig* const config = input_numbered(loop.machine.inputs, InputUse::Probe, task.probe->input);
+    const InputConfig* const config = touch_input_numbered(loop.machine.inputs, task.probe->input);
     return loop.axes.is_present(input->motor, loop.slot) &&
            loop.axes.state(input->motor)->stamp < *rested_ + slots_until_known(*config, loop.machine);
 }

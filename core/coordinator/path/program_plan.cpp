@@ -54,7 +54,7 @@ ProgramPlanner::ProgramPlanner(const MachineConfig& machine)
 }
 
 std::optional<TouchInput> ProgramPlanner::touch_input(const Probe& probe) const {
-    const InputConfig* const found = input(InputUse::Probe, probe.input);
+    const InputConfig* const found = touch_input_numbered(machine_.inputs, probe.input);
     const auto motor = found == nullptr ? std::nullopt : motor_named(machine_, found->motor);
     if (!motor) { return std::nullopt; }
     return TouchInput{static_cast<std::uint32_t>(*motor), static_cast<std::uint8_t>(found->channel), probe.opens};

@@ -67,7 +67,7 @@ std::expected<void, PlanError> ProbeCheck::next(const Block& block, const Machin
     if (has_moved_) { return refuse(block, "a program ends with its probing move; send what follows it afterwards"); }
     if (const auto* probe = std::get_if<Probe>(&block.action); probe != nullptr && !probe_) {
         probe_ = *probe;
-        if (input_numbered(machine.inputs, InputUse::Probe, probe->input) != nullptr) { return {}; }
+        if (touch_input_numbered(machine.inputs, probe->input) != nullptr) { return {}; }
         return refuse(block, "probe " + std::to_string(probe->input) +
                                  " is not configured on this machine; write input { use: PROBE } with this number in "
                                  "the machine's file");
@@ -78,7 +78,7 @@ std::expected<void, PlanError> ProbeCheck::next(const Block& block, const Machin
         return refuse(block, "behind a probe must be one straight move with a feed");
     }
     has_moved_ = true;
-    const InputConfig& input = *input_numbered(machine.inputs, InputUse::Probe, probe_->input);
+    const InputConfig& input = *touch_input_numbered(machine.inputs, probe_->input);
     return check_overshoot(block, *move, machine, input, acceleration_of(*move, machine, axes, from_mm));
 }
 

@@ -21,7 +21,7 @@ enum class MachineEvent : std::uint8_t {
     StoodDown,      // another coordinator owns it
     AxesReady,      // every axis is present with its device, follows this coordinator, has done its orders and rests
     AxisLacking,    // an axis or its device is missing, and nothing moves
-    HomingBegins,   // axes home, group after group
+    HomingBegins,   // axes home, group after group; again behind each move of an axis that homes by touch
     OwnMovesBegin,  // axes move to their places, each by itself
     JogBegins,      // clients move axes while they hold their keys
     EpochBegins,    // axes move together on a path
@@ -64,9 +64,12 @@ inline constexpr std::array kMachineTransitions{
     MachineTransition{MachinePhase::Idle, MachineEvent::Reset, MachinePhase::Waiting},
     MachineTransition{MachinePhase::Idle, MachineEvent::StoodDown, MachinePhase::Standby},
     // In motion.
+    MachineTransition{MachinePhase::Homing, MachineEvent::HomingBegins, MachinePhase::Homing},
+    MachineTransition{MachinePhase::Homing, MachineEvent::EpochBegins, MachinePhase::Homing},
     MachineTransition{MachinePhase::Homing, MachineEvent::StopAsked, MachinePhase::Stopping},
     MachineTransition{MachinePhase::Homing, MachineEvent::JobEnds, MachinePhase::Idle},
     MachineTransition{MachinePhase::Homing, MachineEvent::FailsInMotion, MachinePhase::Stopping},
+    MachineTransition{MachinePhase::Homing, MachineEvent::Fails, MachinePhase::Fault},
     MachineTransition{MachinePhase::Homing, MachineEvent::StoodDown, MachinePhase::Standby},
     MachineTransition{MachinePhase::Running, MachineEvent::EpochBegins, MachinePhase::Running},
     MachineTransition{MachinePhase::Running, MachineEvent::StopAsked, MachinePhase::Stopping},

@@ -81,9 +81,10 @@ private:
     }
 
     void check_overshoot(const InputConfig& input, const std::string& key) {
-        problems_.require(input.use == InputUse::Probe || input.max_overshoot_mm == InputConfig::kUsualOvershoot_mm,
-                          key,
-                          fmt::format("{} is given, but the input is no probe; remove it, or set use: PROBE", key));
+        const bool ends_moves = input.use == InputUse::Probe || input.use == InputUse::Home;
+        problems_.require(
+            ends_moves || input.max_overshoot_mm == InputConfig::kUsualOvershoot_mm, key,
+            fmt::format("{} is given, but the input is no probe; remove it, or set use: PROBE or HOME", key));
         problems_.require_range(key, input.max_overshoot_mm, kLeastOvershoot_mm, kMaxOvershoot_mm);
     }
 

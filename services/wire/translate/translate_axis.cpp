@@ -34,7 +34,7 @@ AnalogLevels analog_of(const lockstep_wire_AxisState& wire, Checks& check) {
 
 // The enumerations on the wire have the same order as those in core.
 static_assert(lockstep_wire_AXIS_FAULT == static_cast<int>(AxisPhase::Fault));
-static_assert(lockstep_wire_AXIS_APPROACH == static_cast<int>(AxisCommandKind::Approach));
+static_assert(lockstep_wire_AXIS_TAKE_PLACE == static_cast<int>(AxisCommandKind::TakePlace));
 
 lockstep_wire_AxisState to_wire(const AxisState& state) {
     lockstep_wire_AxisState wire = {.axis = state.axis,
@@ -139,7 +139,7 @@ FromWire<AxisCommand> from_wire(const lockstep_wire_AxisCommand& wire) {
     Checks check("axis command");
     check.within<std::uint64_t>("sequence", wire.sequence_number, 0, kMostOrders);
     check.within<std::size_t>("axis", wire.axis, 0, kMaxAxes - 1);
-    const AxisCommandKind kind = check.choice("kind", wire.kind, AxisCommandKind::Approach);
+    const AxisCommandKind kind = check.choice("kind", wire.kind, AxisCommandKind::TakePlace);
     check.far("target_steps", wire.target_steps);
     check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxWireTicks);
     check.finite("speed_mm_s", wire.speed_mm_s);

@@ -69,6 +69,24 @@ TEST(Inputs, WrongValuesAreRefusedWithPlaceValueAndRemedy) {
     }
 }
 
+/// The same machine, whose axis homes by this homing block.
+std::string homed_by(const std::string& homing, const std::string& input) {
+    std::string text = with_inputs({input});
+    const std::string axis = "axis {";
+    return text.replace(text.find(axis), axis.size(), axis + " homing { " + homing + " }");
+}
+
+TEST(Inputs, TheSwitchOfAnAxisMustBoundHowFarItsSearchGoesOn) {
+    const std::string input = R"(name: "x_home" motor: "X" channel: 3 use: HOME)";
+    const std::string slow = R"(input: "x_home" search_velocity_mm_s: 0.5)";
+    EXPECT_EQ(error_of(homed_by(slow, input)), "no error");
+    EXPECT_THAT(error_of(homed_by(R"(input: "y_home" search_velocity_mm_s: 0.5)", input)),
+                HasSubstr("homing.input is \"y_home\"; write an input with this name and use: HOME"));
+    EXPECT_THAT(error_of(homed_by(slow + " in_place: true", input)), HasSubstr("says that the axis has no switch"));
+    EXPECT_THAT(error_of(homed_by(slow, input + " max_overshoot_mm: 0.1")),
+                HasSubstr("homing.search_velocity_mm_s is 0.5, with which the axis may go on for 0.17"));
+}
+
 TEST(Inputs, BecomeTheSetupOfTheirDevice) {
     const auto read = parse_machine(
         with_inputs({kStop + " active_low: true", R"(name: "door" motor: "X" channel: 7 use: DOOR debounce_ms: 20)",

@@ -68,7 +68,7 @@ AxisCommand RandomMessages::axis_command() {
     return {.term = term(),
             .sequence = bits() >> 2,
             .axis = index(kMaxAxes),
-            .kind = static_cast<AxisCommandKind>(index(6)),
+            .kind = static_cast<AxisCommandKind>(index(9)),
             .target_steps = far(),
             .ticks = maybe(Ticks{between(1, INT32_MAX)}),
             .speed_mm_s = static_cast<double>(between(0, 1'000'000)) / 7,

@@ -1,0 +1,71 @@
+// Homes an axis whose switch cannot end the pulses of its motors, because it is wired to another device or because
+// motors of several devices move the axis. The sequence is that of an axis that homes by itself, but its moves are
+// paths of all axes that end at a touch of the switch's input (docs/decisions/motion/homing-by-touch.md).
+//
+// Nobody knows where the axis is, and each path must lie within its travel. So before each move the axis is assumed to
+// be at the end of its travel from which the move leads to the other one.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/axis/own_moves/homing.hpp"
+#include "core/coordinator/state/coordinator_loop.hpp"
+#include "core/program.hpp"
+
+namespace lockstep {
+
+/// Names the motors of all axes that home by touch.
+AxisSet motors_homed_by_touch(AxisSet axes, const LoopView& loop);
+AxisSet axes_homed_by_touch(AxisSet axes, const MachineConfig& machine);
+
+class TouchHoming {
+public:
+    TouchHoming(std::size_t axis, const MachineConfig& machine);
+
+    std::size_t axis() const { return axis_; }
+
+    enum class Next : std::uint8_t {
+        Wait,    // until it is known whether the switch is closed
+        Assume,  // that the axis is at place(); then comes a move
+        Move,    // on program()
+        End,     // the axis is truly at place()
+        Fail,    // by fault()
+    };
+    /// What to do next, while nothing moves and all orders are done.
+    Next next(const LoopView& loop);
+    /// The axis's place in whole steps.
+    std::int64_t place() const { return place_; }
+    FaultCode fault() const { return fault_; }
+
+    /// The next move, from where the axes are assumed to be.
+    Program program(const LoopView& loop);
+    /// Call it when this move has ended at rest. `probe`: how, if it ends at a touch.
+    void moved(const std::optional<ProbeResult>& probe, const LoopView& loop);
+
+private:
+    bool is_closed(const LoopView& loop) const;
+    bool is_switch_known(const LoopView& loop) const;
+    bool take(const HomingStep& step);
+    std::int64_t end_of_travel(bool upper) const;
+
+    std::size_t axis_;
+    AxisConfig config_;
+    std::size_t input_;  // of the machine
+    TouchInput switch_;
+    Homing homing_;
+    bool has_begun_ = false;
+    std::optional<LocalMove> move_;  // in progress
+    std::int64_t left_ = 0;          // steps of it
+    bool is_placed_ = false;         // for its next part
+    std::int64_t from_ = 0;          // where this part begins, and its target, as assumed
+    std::int64_t to_ = 0;
+    std::int64_t at_ = 0;    // from where homing began
+    std::int64_t zero_ = 0;  // the same, at the axis's true zero, once it is known
+    std::int64_t place_ = 0;
+    LocalEnd end_;  // of the last move
+    std::optional<Slot> rested_;
+    FaultCode fault_ = FaultCode::None;
+};
+
+}  // namespace lockstep

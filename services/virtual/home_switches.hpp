@@ -1,0 +1,34 @@
+// The switches of axes that home by touch: each closes where its axis truly is, whichever motors move that axis.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "core/kinematics/kinematics.hpp"
+#include "core/machine.hpp"
+
+namespace lockstep {
+
+class HomeSwitches {
+public:
+    explicit HomeSwitches(const MachineConfig& machine);
+
+    bool none() const { return switches_.empty(); }
+    /// Calls set(input, closed) for each switch that changes while the slides of the motors are at these places, in mm.
+    void follow(const std::vector<double>& motors_mm, const std::function<void(std::size_t, bool)>& set);
+
+private:
+    struct Switch {
+        std::size_t input = 0;  // of the machine
+        std::size_t axis = 0;
+        double at_steps = 0;
+        bool toward_min = true;
+        bool is_closed = false;
+    };
+
+    Kinematics kinematics_;
+    std::vector<Switch> switches_;
+};
+
+}  // namespace lockstep

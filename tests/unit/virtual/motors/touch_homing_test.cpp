@@ -1,0 +1,142 @@
+// Axes whose switches cannot end the pulses of their motors home by moves that end at a touch.
+#include <algorithm>
+#include <string>
+
+#include "tests/unit/virtual/motors/motor_machines.hpp"
+
+namespace lockstep {
+namespace {
+
+InputConfig switch_at(const std::string& name, const std::string& motor) {
+    return {.name = name, .motor = motor, .channel = 3, .use = InputUse::Home, .max_overshoot_mm = 1};
+}
+
+void put_at(AxisConfig& axis, double start_mm, const std::string& input) {
+    axis.homing.in_place = false;
+    axis.homing.input = input;
+    axis.homing.park_mm = 5;
+    axis.plant.start_position_mm = start_mm;
+}
+
+/// X and Y are moved by two belts, and their switches are wired to the devices of both.
+MachineConfig belts_from(double x_mm, double y_mm) {
+    MachineConfig machine = two_belts();
+    machine.inputs = {switch_at("x_home", "B"), switch_at("y_home", "A")};
+    put_at(machine.axes[kX], x_mm, "x_home");
+    put_at(machine.axes[kY], y_mm, "y_home");
+    return machine;
+}
+
+/// X has its own motor, but its switch is wired to the device of Y, which homes by its own switch.
+MachineConfig switch_elsewhere() {
+    MachineConfig machine = small_machine();
+    machine.inputs = {switch_at("x_home", "Y")};
+    put_at(machine.axes[kX], 60, "x_home");
+    return machine;
+}
+
+class HomingByTouch : public Rig {
+protected:
+    explicit HomingByTouch(const MachineConfig& machine = belts_from(30, 40)) : Rig({.machine = machine}) {}
+
+    void begin_homing() {
+        ASSERT_TRUE(reaches(MachinePhase::Idle, 2)) << describe();
+        const Reply reply = ask(CommandKind::Home);
+        ASSERT_EQ(reply.status, ReplyStatus::Accepted) << reply.text;
+    }
+    void expect_homed() {
+        begin_homing();
+        ASSERT_TRUE(reaches(MachinePhase::Idle, 60)) << describe();
+        EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
+        for (const auto& state : vm.axis_states()) { EXPECT_TRUE(state->homed); }
+        expect_true_places();
+    }
+    /// Each motor is where it says, to two steps.
+    void expect_true_places() const {
+        for (std::size_t m = 0; m < vm.axis_states().size(); ++m) {
+            const double slide = vm.device(m).plant().position_mm() * motor_steps_per_mm(vm.machine(), m);
+            EXPECT_NEAR(static_cast<double>(counts()[m]), slide, 2.01) << "motor " << m;
+        }
+    }
+    bool any_homed() const {
+        return std::ranges::any_of(vm.axis_states(), [](const auto& state) { return state->homed; });
+    }
+};
+
+TEST_F(HomingByTouch, AxesOfTwoBeltsFindTheirTruePlaces) {
+    expect_homed();
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{1000, 0})) << "the belts are at X5 Y5";
+    const Reply reply = run(program_of({{20, 30}}, 50));
+    ASSERT_EQ(reply.status, ReplyStatus::Accepted) << reply.text;
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
+    expect_true_places();
+}
+
+TEST_F(HomingByTouch, HomesAgainFromWhereItIs) {
+    expect_homed();
+    expect_homed();
+}
+
+TEST_F(HomingByTouch, AStopLeavesTheAxesUnhomed) {
+    begin_homing();
+    wait(1);
+    ASSERT_EQ(vm.state()->phase, MachinePhase::Homing);
+    ASSERT_EQ(ask(CommandKind::Stop).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 2)) << describe();
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Stopped);
+    EXPECT_FALSE(any_homed());
+    EXPECT_EQ(run(program_of({{20, 30}}, 50)).fault, FaultCode::NotHomed);
+    expect_homed();
+}
+
+TEST_F(HomingByTouch, NamesAllAxesOfItsMotors) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 2)) << describe();
+    EXPECT_NE(ask(CommandKind::Home, axis_bit(kX)).text.find("can only be homed together"), std::string::npos);
+}
+
+class HomingFromTheFarEnd : public HomingByTouch {
+protected:
+    HomingFromTheFarEnd() : HomingByTouch(belts_from(100.5, 99)) {}
+};
+
+TEST_F(HomingFromTheFarEnd, SearchesInParts) { expect_homed(); }
+
+class HomingFromTheSwitches : public HomingByTouch {
+protected:
+    HomingFromTheSwitches() : HomingByTouch(belts_from(-1.5, -1.2)) {}
+};
+
+TEST_F(HomingFromTheSwitches, FirstMovesOffThem) { expect_homed(); }
+
+class HomingASwitchElsewhere : public HomingByTouch {
+protected:
+    HomingASwitchElsewhere() : HomingByTouch(switch_elsewhere()) {}
+};
+
+TEST_F(HomingASwitchElsewhere, FindsTheTruePlace) {
+    expect_homed();
+    EXPECT_NEAR(static_cast<double>(counts()[kX]), 500, 1);
+}
+
+MachineConfig without_switch() {
+    MachineConfig machine = belts_from(30, 40);
+    machine.axes[kX].homing.switch_position_mm = -50;
+    return machine;
+}
+
+class HomingWithoutASwitch : public HomingByTouch {
+protected:
+    HomingWithoutASwitch() : HomingByTouch(without_switch()) {}
+};
+
+TEST_F(HomingWithoutASwitch, EndsAtALimitSwitch) {
+    begin_homing();
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 60)) << describe();
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Failed);
+    EXPECT_EQ(fault(), FaultCode::LimitHit);
+    EXPECT_FALSE(any_homed());
+}
+
+}  // namespace
+}  // namespace lockstep
