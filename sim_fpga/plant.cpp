@@ -82,8 +82,8 @@ void put_probe(Plant& plant, const InputConfig& input, const MotorConfig& motor)
                     input.active_low);
 }
 
-/// The switch of an axis that homes by touch, if it is wired to the device of the axis's own motor. That of another axis
-/// does not follow this slide.
+/// The switch of an axis that homes by touch, if it is wired to the device of the axis's own motor. That of another
+/// axis does not follow this slide.
 void put_home_switch(Plant& plant, const InputConfig& input, const MachineConfig& machine, const MotorConfig& motor) {
     const bool is_own = motor.axis && motor.moves_one_axis && machine.axes[*motor.axis].homing.input == input.name;
     if (!is_own) { return; }

@@ -95,6 +95,32 @@ TEST_F(HomingByTouch, NamesAllAxesOfItsMotors) {
     EXPECT_NE(ask(CommandKind::Home, axis_bit(kX)).text.find("can only be homed together"), std::string::npos);
 }
 
+/// Each process stalls in turn, so long that the axes come to rest on their path, also while they brake behind a touch.
+TEST_F(HomingByTouch, GoesOnAfterStallsToTheTruePlaces) {
+    begin_homing();
+    for (std::size_t k = 0; k < 60 && vm.state()->phase == MachinePhase::Homing; ++k) {
+        vm.schedule({.process = k % 3, .at = vm.now(), .lasts = Ticks{30'000}});
+        wait(0.217);
+    }
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 60)) << describe();
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
+    expect_true_places();
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{1000, 0}));
+}
+
+TEST_F(HomingByTouch, EndsIfAnAxisIsLost) {
+    begin_homing();
+    wait(1);
+    vm.schedule({.kind = VirtualFault::Kind::Crash, .process = kY, .at = vm.now(), .lasts = Ticks{100'000}});
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 5)) << describe();
+    EXPECT_EQ(fault(), FaultCode::AxisLost);
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Failed);
+    EXPECT_FALSE(any_homed());
+    wait(0.2);
+    ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
+    expect_homed();
+}
+
 class HomingFromTheFarEnd : public HomingByTouch {
 protected:
     HomingFromTheFarEnd() : HomingByTouch(belts_from(100.5, 99)) {}
