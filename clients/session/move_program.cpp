@@ -136,6 +136,7 @@ std::expected<Program, std::string> probe_program(const MachineConfig& machine, 
         return std::unexpected("the axes stand at the end of this move already; write a place further on");
     }
     move.mode = PathMode::ExactStop;
+    move.is_feed_fixed = true;
     program->name = "probe";
     program->blocks.insert(program->blocks.begin(),
                            {.action = Probe{.input = *probe, .opens = options.away, .must_touch = !options.may_miss}});

@@ -50,6 +50,7 @@ void ProgramBuilder::probe(const Probing& probing) {
     }
     ProgramMove move = move_to(to, probing.feed, {});
     move.mode = PathMode::ExactStop;
+    move.is_feed_fixed = true;  // it was checked how far it goes on behind the touch
     await_speed(move);
     append(Probe{.input = input->number.value_or(0), .opens = probing.opens, .must_touch = probing.must_touch});
     append(std::move(move));

@@ -237,6 +237,9 @@ private:
         problems_.require(!is_of_delta(), "homing.input",
                           "homing.input is given, but the axis is of a delta, whose carriages home by their own "
                           "switches; remove it");
+        problems_.require(machine_.coordination == StepMethod::Ranade, "homing.input",
+                          "homing.input is given, but coordination LAI cannot move as slowly as a search; set "
+                          "coordination: RANADE");
         if (is_switch) { check_overshoot(*input); }
     }
 

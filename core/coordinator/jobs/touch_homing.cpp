@@ -116,7 +116,8 @@ Program TouchHoming::program(const LoopView& loop) {
                               ProgramMove{.target_mm = {to_mm(config_, static_cast<double>(to_))},
                                           .feed_mm_s = move_->speed_mm_s,
                                           .arc = {},
-                                          .mode = PathMode::ExactStop}});
+                                          .mode = PathMode::ExactStop,
+                                          .is_feed_fixed = true}});
     return program;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/number_text.hpp"
+#include "core/overrides.hpp"
 
 namespace lockstep {
 namespace {
@@ -36,15 +37,20 @@ std::expected<void, PlanError> refuse(const Block& block, std::string text) {
     return std::unexpected(PlanError{FaultCode::BadProgram, block.line, std::move(text)});
 }
 
+/// The greatest share of its feed at which a move may run.
+double greatest_override(const ProgramMove& move) { return move.is_feed_fixed ? 1 : Overrides::kMost / 100.0; }
+
 std::expected<void, PlanError> check_overshoot(const Block& block, const ProgramMove& move,
                                                const MachineConfig& machine, const InputConfig& input,
                                                double acceleration_mm_s2) {
-    const double behind = overshoot_mm(machine, input, move.feed_mm_s, acceleration_mm_s2);
+    const double by = greatest_override(move);
+    const double behind = overshoot_mm(machine, input, move.feed_mm_s * by, acceleration_mm_s2);
     if (behind <= input.max_overshoot_mm) { return {}; }
-    const double most = greatest_probing_feed_mm_s(machine, input, acceleration_mm_s2);
-    return refuse(block, "with F" + rounded(move.feed_mm_s * 60) + " this probing move may go on for " +
-                             rounded(behind) + " mm behind the touch, and max_overshoot_mm of input " + input.name +
-                             " is " + rounded(input.max_overshoot_mm) + "; use at most F" +
+    const double most = greatest_probing_feed_mm_s(machine, input, acceleration_mm_s2) / by;
+    return refuse(block, "with F" + rounded(move.feed_mm_s * 60) + (by > 1 ? " and the greatest feed override" : "") +
+                             " this probing move may go on for " + rounded(behind) +
+                             " mm behind the touch, and max_overshoot_mm of input " + input.name + " is " +
+                             rounded(input.max_overshoot_mm) + "; use at most F" +
                              rounded(std::floor(most * 600) / 10) +
                              ", or shorter slots (timing), or raise max_overshoot_mm if the probe bears it");
 }

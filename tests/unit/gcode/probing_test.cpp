@@ -79,6 +79,7 @@ TEST_F(ProbingPrograms, EndWithTheProbingMove) {
     const auto& move = std::get<ProgramMove>(read[2].action);
     EXPECT_THAT(move.target_mm, ElementsAre(0, 0, 10));
     EXPECT_EQ(move.feed_mm_s, 1);
+    EXPECT_TRUE(move.is_feed_fixed) << "how far it goes on behind the touch is checked for its F";
 }
 
 TEST_F(ProbingPrograms, ContinueFromTheRestWithThePlaceOfTheTouch) {

@@ -105,6 +105,18 @@ TEST_F(ProbingMoves, TheAxisKnowsItInTheLoopThatReadsItsDevice) {
     EXPECT_LE(*delay.ticks, debounce + loop + Ticks{1});
 }
 
+TEST_F(ProbingMoves, MustBoundItsWayBehindTheTouchWithEveryOverride) {
+    home();
+    const MachineConfig machine = machine_with_probe();
+    const double most = greatest_probing_feed_mm_s(machine, machine.inputs[kProbe], machine.axes[kX].max_accel_mm_s2);
+    Program program = probe_to({35, 5});
+    auto& move = std::get<ProgramMove>(program.blocks.back().action);
+    move.feed_mm_s = 0.6 * most;
+    EXPECT_NE(run(program).text.find("and the greatest feed override this probing move"), std::string::npos);
+    move.is_feed_fixed = true;
+    EXPECT_EQ(run(program).status, ReplyStatus::Accepted);
+}
+
 TEST_F(ProbingMoves, AnOpeningTouchEndsIt) {
     home();
     touch();
