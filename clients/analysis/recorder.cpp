@@ -112,9 +112,10 @@ void Recorder::on_channel(const channel_event_t& message) {
 
 void Recorder::on_damage(LogPlace place, const std::string& what) { note_damage(analysis_.damages, place, what); }
 
-/// Axes may be jogged in the pause of a job, and return in it. Returns the number of that job's log.
+/// Axes may be jogged in the pause of a job, and return in it. A homing by touch consists of such jobs. Returns the
+/// number of that job's log.
 std::optional<std::size_t> Recorder::paused_by(const JobLog& begun) const {
-    if (begun.kind != "jog" && begun.kind != "return") { return std::nullopt; }
+    if (begun.kind != "jog" && begun.kind != "return" && begun.kind != "home") { return std::nullopt; }
     for (std::size_t i = analysis_.jobs.size(); i-- > 0;) {
         const JobLog& job = analysis_.jobs[i];
         const bool waits = job.coordinator == begun.coordinator && job.begun_us && !job.ended_us && &job != &begun;
@@ -145,8 +146,9 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
     if (!message.lacks.empty()) { record.unplannable = message.lacks; }
     if (!analysis_.config) { return; }
     AskedPath asked;
-    if (program) {
-        record.name = program->head().name;
+    if (program) { record.name = program->head().name; }
+    const bool homes = record.kind == "home";  // the places of its moves are assumed ones
+    if (program && !homes) {
         auto planned = AskedPath::of(*analysis_.config, program->head(), program);
         if (planned) {
             record.planned = planned->planned();
@@ -155,7 +157,7 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
         if (planned) { analysis_.tolerance_mm = std::max(analysis_.tolerance_mm, planned->tolerance_mm()); }
         planned ? void(asked = std::move(*planned)) : void(record.unplannable = planned.error());
     }
-    if (program && record.is_on_a_line()) {
+    if (program && !homes && record.is_on_a_line()) {
         begin_powers();
         for (PowerLog& power : powers_) { add_asked_power(*program, power.output, power.asked); }
         const bool draws = options_.keeps_curves() && !message.has_program_of(latest_program_);
@@ -165,7 +167,7 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
         }
     }
     moves_.begin(number_of(record), analysis_.tick_at(message.utime), *analysis_.config,
-                 JobMoves(std::move(asked), record.is_on_a_line()), record.kind == "home");
+                 JobMoves(std::move(asked), record.is_on_a_line()), homes);
 }
 
 void Recorder::on_late(const std::string& axis, const SharedLate& steps) {

@@ -83,9 +83,10 @@ void JobProgress::note_owner(const RecordedJob& record) {
     findings_.notes.push_back(job_->label + ": another coordinator has taken over and continued it");
 }
 
-/// Axes may be jogged in the pause of a job, and return in it.
+/// Axes may be jogged in the pause of a job, and return in it. A homing by touch consists of moves with programs.
 bool JobProgress::begins_in_pause(const OrderedRecord& record) const {
-    const bool may_be = record.kind == "jog" || record.kind == "return";
+    const bool is_of_homing = record.kind == "home" && record.has_program();
+    const bool may_be = record.kind == "jog" || record.kind == "return" || is_of_homing;
     return may_be && job_ && job_->coordinator == record.coordinator && !job_->is_in_pause;
 }
 
@@ -167,8 +168,7 @@ void JobProgress::begin_epoch(const RecordedJob& record) {
     const MotorPositions at = start->at;
     const MachineConfig& machine = job_->replay->machine();
     ProgramDevices devices = events_.devices();
-    const bool is_aside = record.kind == name_of(JobKind::Jog) || record.kind == name_of(JobKind::Return);
-    if (is_aside) { devices.pulses = {}; }
+    if (job_->is_in_pause || record.kind == name_of(JobKind::Jog)) { devices.pulses = {}; }
     epoch_.emplace(machine, EpochReplay(machine, epoch, std::move(*start), overrides, {record.start_tick}, devices),
                    at);
     knows_outputs_ = events_.knows_devices();

@@ -6,9 +6,10 @@
 
 namespace lockstep::verification {
 
+/// An axis that homes by touch assumes other places before its moves.
 void PositionCheck::take(const SeenPosition& position) {
-    const bool has_new_zero =
-        last_ && (position.incarnation != last_->incarnation || position.is_homed != last_->is_homed);
+    const bool is_other = last_ && position.incarnation != last_->incarnation;
+    const bool has_new_zero = is_other || !position.is_homed || (last_ && !last_->is_homed);
     if (last_ && position.tick < last_->tick) { return wait(position); }
     if (has_new_zero) { zero_since_ = position.tick; }
     last_ = position;

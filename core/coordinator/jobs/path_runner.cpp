@@ -117,7 +117,8 @@ void PathRunner::begin_epoch(PathTask& task, const PathPlace& place, MotorPositi
     }
     task.has_moved = true;
     SwitchedBy switched{events_.devices(), events_.from()};
-    const bool is_aside = task.job.kind == JobKind::Jog || task.job.kind == JobKind::Return;
+    const JobKind kind = task.job.kind;
+    const bool is_aside = kind == JobKind::Jog || kind == JobKind::Return || kind == JobKind::Home;
     if (is_aside) { switched.devices.pulses = {}; }
     const auto touch = task.probe ? planner_.touch_input(*task.probe) : std::nullopt;
     runner_.begin(next_epoch(loop), place, at, overrides_, switched, touch);
