@@ -21,9 +21,10 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 sys.path.insert(0, str(HERE))
 from make_mutants import find, rewrite  # noqa: E402
-from programs import TARGETS, steps  # noqa: E402
+from programs import steps, targets  # noqa: E402
 
-FOLDERS = [f"core/{f}" for f in ("axis", "coordinator", "protocol", "motion", "clock", "step", "path", "gcode")]
+FOLDERS = [f"core/{f}" for f in ("axis", "coordinator", "protocol", "motion", "clock", "step", "path", "gcode",
+                                 "kinematics")]
 
 MEMORY_LIMIT = 4 << 30  # bytes: a mutant may append to a vector without an end
 
@@ -39,14 +40,14 @@ def copy_sources(copy):
             shutil.copy2(source, into)
 
 
-def build(copy):
-    """The lines that did not compile, as (file, line)."""
+def build(copy, wanted):
+    """Builds these targets. The lines that did not compile, as (file, line)."""
     flags = f"-include {HERE}/mutant.hpp -w -fpermissive -Wno-narrowing"
     subprocess.run(["cmake", "-S", copy, "-B", copy / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                     "-DCMAKE_UNITY_BUILD=ON", "-DLOCKSTEP_WERROR=OFF", "-DLOCKSTEP_SPY=OFF",
                     f"-DCMAKE_CXX_FLAGS={flags}", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"],
                    check=True, stdout=subprocess.DEVNULL)
-    done = subprocess.run(["cmake", "--build", copy / "build", "-j", str(os.cpu_count()), "--", "-k", "0", *TARGETS],
+    done = subprocess.run(["cmake", "--build", copy / "build", "-j", str(os.cpu_count()), "--", "-k", "0", *wanted],
                           capture_output=True, text=True)
     if done.returncode == 0:
         return set()
@@ -61,14 +62,14 @@ def build(copy):
     return bad
 
 
-def make(copy):
-    """Writes and builds the copy, and leaves out changes that do not compile until the rest compiles."""
+def make(copy, wanted):
+    """Writes the copy and builds the targets, and leaves out changes that do not compile until the rest compiles."""
     copy_sources(copy)
     found = list(find(ROOT, FOLDERS))
     dropped = set()
     while True:
         mutants = rewrite(found, copy, dropped)
-        bad = build(copy) - dropped
+        bad = build(copy, wanted) - dropped
         if not bad:
             return mutants
         print(f"{len(bad)} lines have changes that do not compile: left out", flush=True)
@@ -95,12 +96,16 @@ def processor_seconds():
     return used.ru_utime + used.ru_stime
 
 
+def file_name(step):
+    return re.sub(r"[^\w.]", "_", step.name) + ".txt"
+
+
 def measure(copy, wanted):
     """Runs each step without a change, to measure its time and the mutants that it reaches."""
     kept = copy / "reached"
     kept.mkdir(exist_ok=True)
     for step in wanted:
-        reached = kept / (step.name.replace(" ", "_") + ".txt")
+        reached = kept / file_name(step)
         if not reached.exists():
             begun = processor_seconds()
             if run(copy, step, {"LOCKSTEP_REACHED": str(reached)}, 900):
@@ -157,16 +162,24 @@ def main():
     options.add_argument("--sample", type=int, default=400)
     options.add_argument("--runs", type=int, default=1000, help="of drawn machines, at most those of steps.txt")
     options.add_argument("--quick", type=float, default=1e9, help="leaves out the programs that take more seconds")
+    options.add_argument("--without", default="", help="programs that are neither built nor run, with commas")
+    options.add_argument("--again", action="store_true", help="builds the tests again; continues with the copy's mutants")
     options.add_argument("--only", help="numbers of mutants, with commas")
     options.add_argument("--survivors", action="store_true", help="only the mutants that survived the last time")
     options.add_argument("--built", action="store_true", help="continue with the existing copy and its results")
     given = options.parse_args()
     copy = given.folder.resolve()
     copy.mkdir(exist_ok=True)
-    if given.built:
+    without = given.without.split(",")
+    if given.again:
+        copy_sources(copy)
+        if build(copy, targets(without)):
+            raise SystemExit("the copy does not build with these tests")
+    if given.built or given.again:
         mutants = json.loads((copy / "mutants.json").read_text())
     else:
-        mutants = make(copy)
+        mutants = make(copy, targets(without))
+    if not given.built:
         (copy / "results.json").unlink(missing_ok=True)
         shutil.rmtree(copy / "reached", ignore_errors=True)
     usable = [n for n, mutant in enumerate(mutants) if mutant["used"]]
@@ -176,7 +189,7 @@ def main():
     chosen = sorted(random.Random(given.seed).sample(usable, min(given.sample, len(usable))))
     if given.only:
         chosen = [int(n) for n in given.only.split(",")]
-    wanted = steps(given.runs)
+    wanted = steps(copy, given.runs, without)
     measure(copy, wanted)
     wanted = sorted((step for step in wanted if step.seconds <= given.quick), key=lambda step: step.seconds)
     for n in random.Random(given.seed).sample(chosen, len(chosen)):  # random order: the results so far are a sample too
