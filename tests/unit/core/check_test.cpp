@@ -9,7 +9,13 @@
 namespace lockstep {
 namespace {
 
-TEST(Check, DoesNothingIfThePromiseHolds) { check(true, "one is one"); }
+TEST(Check, ReportsNothingIfThePromiseHolds) {
+    static int reports = 0;
+    const CheckReporter before = set_check_reporter([](std::string_view, const std::source_location&) { ++reports; });
+    check(true, "one is one");
+    set_check_reporter(before);
+    EXPECT_EQ(reports, 0);
+}
 
 TEST(CheckDeath, NamesThePromiseAndItsPlace) {
     EXPECT_DEATH(check(1 > 2, "one exceeds two"), "check_test.cpp:[0-9]+: failed check: one exceeds two");
