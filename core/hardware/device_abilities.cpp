@@ -78,9 +78,11 @@ std::uint64_t debounced(const DeviceSetup& setup) {
 
 /// The machine's inputs at the motor's device.
 std::uint64_t input_channels(const MachineConfig& machine, const MotorConfig& motor) {
-    return inputs_with(machine, motor.name, InputUse::EmergencyStop) |
-           inputs_with(machine, motor.name, InputUse::Door) | inputs_with(machine, motor.name, InputUse::Program) |
-           inputs_with(machine, motor.name, InputUse::Probe) | inputs_with(machine, motor.name, InputUse::Home);
+    std::uint64_t inputs = 0;
+    for (const InputConfig& input : machine.inputs) {
+        inputs |= std::uint64_t{input.motor == motor.name} << input.channel;
+    }
+    return inputs;
 }
 
 std::uint64_t modulated(const DeviceSetup& setup) {
