@@ -217,14 +217,9 @@ std::vector<ScrewPoint> read_screw(const proto::Screw& message, const std::strin
     return points;
 }
 
+/// Both enumerations have the same numbers.
 StepMethod read_method(proto::Method method) {
-    switch (method) {
-        case proto::SPIELAUER: return StepMethod::Spielauer;
-        case proto::LAI: return StepMethod::Lai;
-        case proto::LAM: return StepMethod::Lam;
-        case proto::CARRICA: return StepMethod::Carrica;
-        default: return StepMethod::Ranade;
-    }
+    return proto::Method_IsValid(method) ? static_cast<StepMethod>(method) : StepMethod::Ranade;
 }
 
 std::string method_name(proto::Method method) {

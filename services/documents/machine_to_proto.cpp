@@ -133,10 +133,8 @@ void write_screw(const std::vector<ScrewPoint>& points, proto::Screw& message) {
     }
 }
 
-proto::Method method_to_proto(StepMethod method) {
-    constexpr std::array kMethods{proto::RANADE, proto::SPIELAUER, proto::LAI, proto::LAM, proto::CARRICA};
-    return kMethods[static_cast<std::size_t>(method)];
-}
+/// Both enumerations have the same numbers.
+proto::Method method_to_proto(StepMethod method) { return static_cast<proto::Method>(method); }
 
 void write_motor(const MotorBlock& motor, proto::Motor& message) {
     message.set_name(motor.name);

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
+
+#include "core/motion/step_source.hpp"
+#include "idl/proto/machine.pb.h"
 #include "tests/unit/documents/machine_text_examples.hpp"
 
 namespace lockstep {
@@ -193,6 +197,14 @@ TEST(MachineFile, AnUnattendedJobRunsOnUnlessTheFileSaysOtherwise) {
     EXPECT_EQ(held.unattended_job, UnattendedJob::IsHeld);
     EXPECT_EQ(parse(machine_text(held)).unattended_job, UnattendedJob::IsHeld);
     EXPECT_NE(config_hash(held), config_hash(usual));
+}
+
+TEST(MachineFile, MethodsHaveTheSameNumbersInFilesAndInCore) {
+    for (int number = 0; number < proto::Method_ARRAYSIZE; ++number) {
+        std::string name(name_of(static_cast<StepMethod>(number)));
+        for (char& c : name) { c = static_cast<char>(std::toupper(c)); }
+        EXPECT_EQ(name, proto::Method_Name(number));
+    }
 }
 
 }  // namespace
