@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "core/axis/state/placing.hpp"
 #include "core/kinematics/motor_inputs.hpp"
 #include "core/kinematics/motors.hpp"
 
@@ -191,34 +192,9 @@ void AxisController::carry_out(const AxisCommand& order, AxisLoop& loop) {
         case AxisCommandKind::MoveOwn: return own_.move(order, is_resting(), loop);
         case AxisCommandKind::Halt: return own_.halt(loop);
         case AxisCommandKind::Jog: return own_.jog(order, is_resting(), loop);
-        case AxisCommandKind::Assume: return assume_place(order, loop);
-        case AxisCommandKind::TakePlace: return take_place(order, loop);
+        case AxisCommandKind::Assume: return assume_place(order, is_resting(), loop);
+        case AxisCommandKind::TakePlace: return take_place(order, is_resting(), loop);
     }
-}
-
-FaultCode AxisController::refusal_of_place() const {
-    if (!is_resting() || device_.status().moving) { return FaultCode::Busy; }
-    if (condition_.phases.phase() == AxisPhase::Fault) { return FaultCode::InFault; }
-    return device_.is_present() ? FaultCode::None : FaultCode::DeviceMissing;
-}
-
-/// Begins a homing by frames, or goes on with it.
-void AxisController::assume_place(const AxisCommand& order, AxisLoop& loop) {
-    if (const FaultCode why = refusal_of_place(); why != FaultCode::None) { return loop.refuse(order, why); }
-    condition_.phases.clear_fault();
-    condition_.position.begin_homing();
-    condition_.phases.happen(AxisEvent::HomingBegins);
-    condition_.position.assume_zero(device_.status().position.count() - order.target_steps);
-    condition_.orders.end(FaultCode::None);
-}
-
-void AxisController::take_place(const AxisCommand& order, AxisLoop& loop) {
-    if (const FaultCode why = refusal_of_place(); why != FaultCode::None) { return loop.refuse(order, why); }
-    if (!condition_.position.is_assumed()) { return loop.refuse(order, FaultCode::NotHomed); }
-    condition_.position.set_zero(device_.status().position.count() - order.target_steps, device_.status());
-    condition_.phases.happen(AxisEvent::Zeroed);
-    loop.notice({AxisNotice::Kind::Homed, FaultCode::None, 0});
-    condition_.orders.end(FaultCode::None);
 }
 
 /// Enters the emergency stop also at rest, so that messages still on their way do not move this axis before a person

@@ -53,9 +53,6 @@ private:
     void carry_out(const AxisCommand& order, AxisLoop& loop);
     void stop_now(FaultCode why, AxisLoop& loop);
     void reset(const AxisCommand& order, AxisLoop& loop);
-    FaultCode refusal_of_place() const;
-    void assume_place(const AxisCommand& order, AxisLoop& loop);
-    void take_place(const AxisCommand& order, AxisLoop& loop);
 
     void move_on(AxisLoop& loop);
     void tend_outputs(AxisLoop& loop);

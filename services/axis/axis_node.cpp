@@ -17,7 +17,7 @@ AxisNode::AxisNode(const Setup& setup, OpenDevice open)
       controller_(setup.axis, setup.machine, setup.identity, setup.config_hash, methods::begin_steps, setup.kept),
       time_(setup.axis, setup.machine),
       clock_reset_(setup.machine.tick_ns),
-      debounce_(setup_of(setup.machine, motors_of(setup.machine)[setup.axis]).debounce) {}
+      edges_(setup_of(setup.machine, motors_of(setup.machine)[setup.axis]).debounce) {}
 
 const AxisOutputs& AxisNode::step(Tick own, const AxisMail& mail, const OnStep& on_step) {
     decide(own, mail, on_step);
@@ -61,7 +61,7 @@ void AxisNode::lose_device(Tick own, const std::string& why) {
     troubles_ += has_device() ? 1 : 0;
     if (has_device()) { time_.change_device(); }
     found_.reset();
-    changes_.clear();
+    edges_.clear();
     status_.moving = false;
     status_.finished = true;
     lost_before_ += std::exchange(lost_captures_, 0);
@@ -86,33 +86,20 @@ void AxisNode::drain_channels(Tick own) {
     if (!has_device()) { return; }
     const auto take = [&](const ChannelEvent& event) {
         on_channel_(event);
-        if (event.kind == ChannelEvent::Kind::Input && knows_time_) { changes_.push_back(event); }
+        if (event.kind == ChannelEvent::Kind::Input && knows_time_) { edges_.add(event); }
     };
     const auto drained = found_->port->drain_channels(std::cref(take));  // by reference: a copy would be allocated
     if (!drained) { lose_device(own, drained.error()); }
 }
 
-/// Those up to the newest reading; later ones come with the next. An input changes its debounce after its pin.
-void AxisNode::take_edges() {
-    edges_.clear();
-    const ClockView machine_time = time_.device_clock();
-    const auto later = std::ranges::find_if(changes_, [&](const auto& change) { return change.tick > status_.now; });
-    for (auto change = changes_.begin(); change != later; ++change) {
-        const Tick tick = machine_time.at(change->tick - debounce_[change->channel]);
-        edges_.push_back({tick, change->channel, change->closed});
-    }
-    changes_.erase(changes_.begin(), later);
-}
-
 void AxisNode::control(const AxisMail& mail) {
     has_begun_ = true;
-    take_edges();
     const DeviceStatus status = time_.in_machine_time(status_);
     const AxisInputs in{.now = time_.now(),
                         .device = status,
                         .has_device = has_device(),
                         .device_failed = std::exchange(failed_, false),
-                        .edges = edges_,
+                        .edges = edges_.take(status_.now, time_.device_clock()),
                         .frames = mail.frames,
                         .peers = mail.peers,
                         .coordinator = mail.coordinator,

@@ -1,7 +1,6 @@
 // An axis controller connected to its device. An axis's process runs it in each loop, live or in virtual time.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <expected>
 #include <functional>
@@ -19,6 +18,7 @@
 #include "core/clock/clock_reset.hpp"
 #include "core/flight/axis_flight.hpp"
 #include "services/axis/device_port.hpp"
+#include "services/axis/input_edges.hpp"
 
 namespace lockstep {
 
@@ -96,7 +96,6 @@ private:
     void control(const AxisMail& mail);
     void drain(Tick own, const OnStep& on_step, const ClockView& machine_time);
     void drain_channels(Tick own);
-    void take_edges();
     void note(std::string trouble);
     void give(const std::vector<DeviceOrder>& orders);
 
@@ -132,11 +131,9 @@ private:
     HealthMeter* meter_ = nullptr;  // null: nothing is measured
     AxisFlight* flight_ = nullptr;  // null: nothing is noted
     OnChannel on_channel_ = [](const ChannelEvent&) {};
-    std::array<Ticks, kMostInputs> debounce_;
-    std::vector<ChannelEvent> changes_;  // of inputs, that were not passed on yet
-    std::vector<InputEdge> edges_;       // of the last control step
-    bool failed_ = false;                // a device order failed since the last control step
-    AxisOutputs out_;                    // of the last loop
+    InputEdges edges_;
+    bool failed_ = false;  // a device order failed since the last control step
+    AxisOutputs out_;      // of the last loop
 };
 
 }  // namespace lockstep

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/coordinator/program/probe_check.hpp"
 #include "core/methods/suits.hpp"
 #include "core/motion/step_source.hpp"
 #include "core/number_text.hpp"
@@ -15,6 +14,7 @@
 #include "services/documents/problem_list.hpp"
 #include "services/documents/rules/axis_ranges.hpp"
 #include "services/documents/rules/following_error_rule.hpp"
+#include "services/documents/rules/homing_input_rules.hpp"
 #include "services/documents/rules/pin_rules.hpp"
 
 namespace lockstep {
@@ -42,7 +42,7 @@ public:
         if (has_own_motor()) { check_capture(); }
         check_unhomed_jog();
         check_homing_places();
-        if (!axis_.homing.input.empty()) { check_homing_input(); }
+        check_homing_input(machine_, axis_, problems_);
         check_plant();
         check_pin_ranges(axis_.pins, "pins.", problems_);
         if (has_own_motor()) { check_method(); }
@@ -218,47 +218,6 @@ private:
             {"homing.latch_velocity_mm_s", "homing.search_velocity_mm_s"}, latch <= search,
             fmt::format("homing.latch_velocity_mm_s is {}, above homing.search_velocity_mm_s {}; decrease it",
                         number_text(latch), number_text(search)));
-    }
-
-    /// The coordinator homes the axis. How far it goes on behind the touch is bounded here, before anything moves.
-    void check_homing_input() {
-        const HomingConfig& homing = axis_.homing;
-        const auto input = std::ranges::find(machine_.inputs, homing.input, &InputConfig::name);
-        const bool is_switch = input != machine_.inputs.end() && input->use == InputUse::Home;
-        problems_.require(is_switch, "homing.input",
-                          fmt::format("homing.input is \"{}\"; write an input with this name and use: HOME, or "
-                                      "remove it if the switch is wired to the axis's own device",
-                                      homing.input));
-        problems_.require(!homing.in_place, "homing.input",
-                          "homing.input is given, but in_place: true says that the axis has no switch; remove one");
-        problems_.require(axis_.motors.size() < 2, "homing.input",
-                          "homing.input is given, but the axis has several motors, which home by their own switches to "
-                          "be square; remove it");
-        problems_.require(!is_of_delta(), "homing.input",
-                          "homing.input is given, but the axis is of a delta, whose carriages home by their own "
-                          "switches; remove it");
-        problems_.require(machine_.coordination == StepMethod::Ranade, "homing.input",
-                          "homing.input is given, but coordination LAI cannot move as slowly as a search; set "
-                          "coordination: RANADE");
-        if (is_switch) { check_overshoot(*input); }
-    }
-
-    bool is_of_delta() const {
-        const auto& delta = machine_.kinematics.delta;
-        return delta && (axis_.name == delta->x || axis_.name == delta->y || axis_.name == delta->z);
-    }
-
-    void check_overshoot(const InputConfig& input) {
-        const double speed = axis_.homing.search_velocity_mm_s;
-        const double behind = overshoot_mm(machine_, input, speed, axis_.max_accel_mm_s2);
-        const double most = greatest_probing_feed_mm_s(machine_, input, axis_.max_accel_mm_s2);
-        problems_.require(
-            behind <= input.max_overshoot_mm, "homing.search_velocity_mm_s",
-            fmt::format("homing.search_velocity_mm_s is {}, with which the axis may go on for {} mm behind "
-                        "its switch, and max_overshoot_mm of input {} is {}; use at most {}, or shorter "
-                        "slots (timing), or raise max_overshoot_mm if the switch bears it",
-                        number_text(speed), number_text(behind, 4), input.name, number_text(input.max_overshoot_mm),
-                        number_text(std::floor(most * 1e3) / 1e3)));
     }
 
     void check_unhomed_jog() {

@@ -5,6 +5,7 @@
 
 #include "core/check.hpp"
 #include "core/coordinator/jobs/job_commands.hpp"
+#include "core/coordinator/jobs/job_events.hpp"
 
 namespace lockstep {
 namespace {
@@ -65,8 +66,8 @@ void settle(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, Coo
 /// A move of axes that home by touch is over. `probed`: it ended at a touch.
 void go_on_homing(activity::Homing& homing, const PathTask& task, bool probed, JobLifecycle& jobs,
                   CoordinatorLoop& loop) {
-    if (probed) { jobs.record_probe(task, loop); }
-    jobs.record_end(task.job, JobOutcome::Done, loop);
+    if (probed) { loop.out.jobs.push_back(job_events::probed(task, jobs.path())); }
+    loop.out.jobs.push_back(job_events::ended(task.job, JobOutcome::Done));
     if (homing.touch) { homing.touch->moved(probed ? jobs.path().probe() : std::nullopt, loop); }
 }
 
@@ -85,7 +86,8 @@ void settle_homing_move(activity::OnPath& path, const EpochEnd& end, JobLifecycl
     if (auto* const again = jobs.activity().as<activity::OnPath>()) {
         again->homing = std::move(homing);
     } else {
-        jobs.record_end(homing.job, jobs.count().outcome().value_or(JobOutcome::Failed), loop);
+        const JobOutcome outcome = jobs.count().outcome().value_or(JobOutcome::Failed);
+        loop.out.jobs.push_back(job_events::ended(homing.job, outcome));
     }
 }
 
@@ -108,7 +110,7 @@ void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& l
     // The fault names an axis that does not come to rest.
     jobs.fail({FaultCode::NotAtRest, loop.axes.moving(loop.slot).value_or(0)}, loop);
     jobs.fail_at_rest(path.fault, loop);
-    if (homing) { jobs.record_end(homing->job, JobOutcome::Failed, loop); }
+    if (homing) { loop.out.jobs.push_back(job_events::ended(homing->job, JobOutcome::Failed)); }
 }
 
 bool is_of_homing(AxisCommandKind kind) {

@@ -3,25 +3,10 @@
 #include <cmath>
 #include <utility>
 
+#include "core/coordinator/jobs/job_events.hpp"
+
 namespace lockstep {
 namespace {
-
-JobEvent begun(const MachineJob& job, const AxisCounts& start) {
-    return {.kind = JobEvent::Kind::Begun,
-            .job = job.number,
-            .job_kind = job.kind,
-            .program = job.program,
-            .program_id = job.program_id,
-            .start_counts = start};
-}
-
-JobEvent ended(const MachineJob& job, JobOutcome outcome) {
-    return {.kind = JobEvent::Kind::Ended,
-            .job = job.number,
-            .job_kind = job.kind,
-            .outcome = outcome,
-            .program_id = job.program_id};
-}
 
 /// The number of a notice; 0 without a line.
 std::uint64_t number_of(std::optional<std::int32_t> line) { return static_cast<std::uint64_t>(line.value_or(0)); }
@@ -38,7 +23,7 @@ MachineJob JobLifecycle::begin(JobKind kind, const Command& command, std::shared
                          .program_id = is_path ? std::optional(command.program) : std::nullopt,
                          .program = std::move(program),
                          .client = command.client};
-    loop.out.jobs.push_back(begun(job, start));
+    loop.out.jobs.push_back(job_events::begun(job, start));
     return job;
 }
 
@@ -50,20 +35,8 @@ MachineJob JobLifecycle::begin_in_pause(JobKind kind, std::shared_ptr<const Know
                          .program_id = {},
                          .program = std::move(program),
                          .client = paused.client};
-    loop.out.jobs.push_back(begun(job, start));
+    loop.out.jobs.push_back(job_events::begun(job, start));
     return job;
-}
-
-void JobLifecycle::record_end(const MachineJob& job, JobOutcome outcome, CoordinatorLoop& loop) {
-    loop.out.jobs.push_back(ended(job, outcome));
-}
-
-void JobLifecycle::record_probe(const PathTask& task, CoordinatorLoop& loop) {
-    loop.out.jobs.push_back({.kind = JobEvent::Kind::Probed,
-                             .job = task.job.number,
-                             .job_kind = task.job.kind,
-                             .epoch = task.has_moved ? path_.epoch() : 0,
-                             .probe = path_.probe()});
 }
 
 void JobLifecycle::follow(PathTask task, const PathNext& next, std::optional<activity::Paused> pause,
@@ -73,10 +46,10 @@ void JobLifecycle::follow(PathTask task, const PathNext& next, std::optional<act
         return activity_.become(MachineEvent::EpochBegins, std::move(moving), loop.out);
     }
     if (const Pause* const why = std::get_if<Pause>(&next)) { return this->pause({std::move(task), *why, {}}, loop); }
-    if (const Probed* const probed = std::get_if<Probed>(&next)) {
-        record_probe(task, loop);
-        if (probed->why == FaultCode::None) { return finish(task.job, JobOutcome::Done, loop); }
-        return end_early(task.job, task.job.program->last_line(), probed->why, loop);
+    if (const Probed* const end = std::get_if<Probed>(&next)) {
+        loop.out.jobs.push_back(job_events::probed(task, path_));
+        if (end->why == FaultCode::None) { return finish(task.job, JobOutcome::Done, loop); }
+        return end_early(task.job, task.job.program->last_line(), end->why, loop);
     }
     pause ? end_in_pause(task.job, *std::move(pause), JobOutcome::Done, loop) : end_program(task.job, loop);
 }
@@ -110,7 +83,7 @@ void JobLifecycle::end(JobOutcome outcome, CoordinatorLoop& loop) {
 
 void JobLifecycle::note_end(const MachineJob& job, JobOutcome outcome, CoordinatorLoop& loop) {
     if (outcome != JobOutcome::Done) { path_.events().switch_off(job.number, outcome, loop, loop.out.events); }
-    loop.out.jobs.push_back(ended(job, outcome));
+    loop.out.jobs.push_back(job_events::ended(job, outcome));
     count_.end(outcome);
 }
 
@@ -122,7 +95,7 @@ void JobLifecycle::finish(const MachineJob& job, JobOutcome outcome, Coordinator
 /// The paused job waits again, or goes on after a whole return. A return that is stopped ends it as well.
 void JobLifecycle::end_in_pause(const MachineJob& job, activity::Paused pause, JobOutcome outcome,
                                 CoordinatorLoop& loop) {
-    loop.out.jobs.push_back(ended(job, outcome));
+    loop.out.jobs.push_back(job_events::ended(job, outcome));
     pause.task.job.client = job.client;
     const bool is_return = job.kind == JobKind::Return;
     if (is_return && activity_.intent() == Intent::Stop) { return finish(pause.task.job, outcome, loop); }
@@ -159,7 +132,7 @@ void JobLifecycle::fail_at_rest(const MachineFault& fault, CoordinatorLoop& loop
     cut_inherited(TakeoverDoubt::AxisInDoubt, loop);
     const MachineJob* const job = activity_.job();
     const activity::Paused* const pause = activity_.pause();
-    if (pause != nullptr) { loop.out.jobs.push_back(ended(*job, JobOutcome::Failed)); }
+    if (pause != nullptr) { loop.out.jobs.push_back(job_events::ended(*job, JobOutcome::Failed)); }
     if (job != nullptr) { note_end(pause != nullptr ? pause->task.job : *job, JobOutcome::Failed, loop); }
     path_.events().switch_off_outputs(count_.number(), JobOutcome::Failed, loop, loop.out.events);
     activity_.become(MachineEvent::Fails, activity::InFault{first}, loop.out);

@@ -31,10 +31,6 @@ public:
     /// The same for a job in the pause of another one.
     MachineJob begin_in_pause(JobKind kind, std::shared_ptr<const KnownProgram> program, const AxisCounts& start,
                               CoordinatorLoop& loop);
-    /// Records the end of a job within another one, which goes on, or of that other one, which ends with it.
-    void record_end(const MachineJob& job, JobOutcome outcome, CoordinatorLoop& loop);
-    /// Records how a task has probed.
-    void record_probe(const PathTask& task, CoordinatorLoop& loop);
     /// Enters the next activity of a task. `pause`: the job to whose place the task returns.
     void follow(PathTask task, const PathNext& next, std::optional<activity::Paused> pause, CoordinatorLoop& loop);
     /// The job rests between two legs. If its program asks for an input, it waits for that from now on.

@@ -1,0 +1,38 @@
+// What is published of jobs: that they begin, probe and end.
+#pragma once
+
+#include <optional>
+
+#include "core/coordinator/jobs/job.hpp"
+#include "core/coordinator/jobs/path_runner.hpp"
+#include "core/coordinator/state/coordinator_io.hpp"
+
+namespace lockstep::job_events {
+
+inline JobEvent begun(const MachineJob& job, const AxisCounts& start) {
+    return {.kind = JobEvent::Kind::Begun,
+            .job = job.number,
+            .job_kind = job.kind,
+            .program = job.program,
+            .program_id = job.program_id,
+            .start_counts = start};
+}
+
+inline JobEvent ended(const MachineJob& job, JobOutcome outcome) {
+    return {.kind = JobEvent::Kind::Ended,
+            .job = job.number,
+            .job_kind = job.kind,
+            .outcome = outcome,
+            .program_id = job.program_id};
+}
+
+/// How a task has probed, on its path.
+inline JobEvent probed(const PathTask& task, const PathRunner& path) {
+    return {.kind = JobEvent::Kind::Probed,
+            .job = task.job.number,
+            .job_kind = task.job.kind,
+            .epoch = task.has_moved ? path.epoch() : 0,
+            .probe = path.probe()};
+}
+
+}  // namespace lockstep::job_events

@@ -1,0 +1,55 @@
+#include "services/documents/rules/homing_input_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/coordinator/program/probe_check.hpp"
+#include "core/number_text.hpp"
+
+namespace lockstep {
+namespace {
+
+bool is_of_delta(const AxisConfig& axis, const MachineConfig& machine) {
+    const auto& delta = machine.kinematics.delta;
+    return delta && (axis.name == delta->x || axis.name == delta->y || axis.name == delta->z);
+}
+
+void check_overshoot(const MachineConfig& machine, const AxisConfig& axis, const InputConfig& input,
+                     ProblemList& problems) {
+    const double speed = axis.homing.search_velocity_mm_s;
+    const double behind = overshoot_mm(machine, input, speed, axis.max_accel_mm_s2);
+    const double most = greatest_probing_feed_mm_s(machine, input, axis.max_accel_mm_s2);
+    problems.require(
+        behind <= input.max_overshoot_mm, "homing.search_velocity_mm_s",
+        fmt::format("homing.search_velocity_mm_s is {}, with which the axis may go on for {} mm behind its switch, and "
+                    "max_overshoot_mm of input {} is {}; use at most {}, or shorter slots (timing), or raise "
+                    "max_overshoot_mm if the switch bears it",
+                    number_text(speed), number_text(behind, 4), input.name, number_text(input.max_overshoot_mm),
+                    number_text(std::floor(most * 1e3) / 1e3)));
+}
+
+}  // namespace
+
+void check_homing_input(const MachineConfig& machine, const AxisConfig& axis, ProblemList& problems) {
+    const HomingConfig& homing = axis.homing;
+    if (homing.input.empty()) { return; }
+    const auto input = std::ranges::find(machine.inputs, homing.input, &InputConfig::name);
+    const bool is_switch = input != machine.inputs.end() && input->use == InputUse::Home;
+    problems.require(is_switch, "homing.input",
+                     fmt::format("homing.input is \"{}\"; write an input with this name and use: HOME, or remove it if "
+                                 "the switch is wired to the axis's own device",
+                                 homing.input));
+    problems.require(!homing.in_place, "homing.input",
+                     "homing.input is given, but in_place: true says that the axis has no switch; remove one");
+    problems.require(axis.motors.size() < 2, "homing.input",
+                     "homing.input is given, but the axis has several motors, which home by their own switches to be "
+                     "square; remove it");
+    problems.require(!is_of_delta(axis, machine), "homing.input",
+                     "homing.input is given, but the axis is of a delta, whose carriages home by their own switches; "
+                     "remove it");
+    if (is_switch) { check_overshoot(machine, axis, *input, problems); }
+}
+
+}  // namespace lockstep
