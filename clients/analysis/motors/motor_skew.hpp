@@ -1,7 +1,7 @@
 // How far apart the motors of one axis were, such as the two sides of a gantry, from their steps.
 //
 // While motors home, their places are not known, so their ways since the begin are compared, as the coordinator does
-// (core/coordinator/jobs/skew_watch.hpp). In other jobs their places are.
+// (core/coordinator/homing/skew_watch.hpp). In other jobs their places are.
 #pragma once
 
 #include <cstddef>

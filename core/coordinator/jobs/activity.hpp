@@ -4,12 +4,12 @@
 #include <optional>
 #include <variant>
 
-#include "core/coordinator/jobs/homing_sequence.hpp"
+#include "core/coordinator/homing/homing_sequence.hpp"
+#include "core/coordinator/homing/skew_watch.hpp"
+#include "core/coordinator/homing/touch_homing.hpp"
 #include "core/coordinator/jobs/input_watch.hpp"
 #include "core/coordinator/jobs/own_targets.hpp"
 #include "core/coordinator/jobs/path_task.hpp"
-#include "core/coordinator/jobs/skew_watch.hpp"
-#include "core/coordinator/jobs/touch_homing.hpp"
 #include "core/coordinator/jogs/jogs.hpp"
 #include "core/coordinator/jogs/path_jog.hpp"
 #include "core/coordinator/state/machine_phases.hpp"

@@ -14,11 +14,6 @@ MotorPositions positions_of(const LoopView& loop) {
 
 }  // namespace
 
-Slot slots_until_known(const InputConfig& input, const MachineConfig& machine) {
-    const double debounce = input.debounce_ms * 1e-3 * machine.ticks_per_second();
-    return static_cast<Slot>(debounce / static_cast<double>(machine.slot_ticks().value)) + 3 + rules::kHopSlots;
-}
-
 std::optional<Probed> Probing::end_at_begin(const PathTask& task, const TouchInput& input, bool moves,
                                             const LoopView& loop) {
     rested_.reset();

@@ -9,10 +9,6 @@
 
 namespace lockstep {
 
-/// Within so many slots every change of an input is known from the states of its axis: the input follows its pin, the
-/// device is read, the axis decides, publishes, and its state arrives.
-Slot slots_until_known(const InputConfig& input, const MachineConfig& machine);
-
 class Probing {
 public:
     /// Ends a task whose probe touches before its move begins, or whose move moves nothing. Returns nullopt if the move

@@ -7,6 +7,7 @@
 
 #include "core/number_text.hpp"
 #include "core/overrides.hpp"
+#include "core/protocol/rules.hpp"
 
 namespace lockstep {
 namespace {
@@ -66,6 +67,11 @@ double overshoot_mm(const MachineConfig& machine, const InputConfig& input, doub
 double greatest_probing_feed_mm_s(const MachineConfig& machine, const InputConfig& input, double acceleration_mm_s2) {
     const double gained = acceleration_mm_s2 * seconds_until_braking(machine, input);
     return std::sqrt(gained * gained + 2 * acceleration_mm_s2 * input.max_overshoot_mm) - gained;
+}
+
+Slot slots_until_known(const InputConfig& input, const MachineConfig& machine) {
+    const double debounce = input.debounce_ms * 1e-3 * machine.ticks_per_second();
+    return static_cast<Slot>(debounce / static_cast<double>(machine.slot_ticks().value)) + 3 + rules::kHopSlots;
 }
 
 std::expected<void, PlanError> ProbeCheck::next(const Block& block, const MachineConfig& machine,

@@ -21,6 +21,10 @@ double overshoot_mm(const MachineConfig& machine, const InputConfig& input, doub
 /// The greatest feed for which overshoot_mm() is at most max_overshoot_mm.
 double greatest_probing_feed_mm_s(const MachineConfig& machine, const InputConfig& input, double acceleration_mm_s2);
 
+/// Within so many slots every change of an input is known from the states of its axis: the input follows its pin, the
+/// device is read, the axis decides, publishes, and its state arrives.
+Slot slots_until_known(const InputConfig& input, const MachineConfig& machine);
+
 class ProbeCheck {
 public:
     /// `axes`: those of the machine that the program names. Call it for all blocks, in order, with the place where each

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "coordinator_parts.hpp"
-#include "core/coordinator/jobs/homing_sequence.hpp"
+#include "core/coordinator/homing/homing_sequence.hpp"
 #include "core/coordinator/jobs/inherited_job.hpp"
 #include "core/coordinator/jobs/job.hpp"
 #include "core/coordinator/jobs/job_commands.hpp"

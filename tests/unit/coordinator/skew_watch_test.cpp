@@ -1,5 +1,5 @@
 // Motors of one axis that come apart while they home are noticed, and a damaged state is not taken for that.
-#include "core/coordinator/jobs/skew_watch.hpp"
+#include "core/coordinator/homing/skew_watch.hpp"
 
 #include <gtest/gtest.h>
 

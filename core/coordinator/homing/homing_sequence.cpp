@@ -1,4 +1,4 @@
-#include "core/coordinator/jobs/homing_sequence.hpp"
+#include "core/coordinator/homing/homing_sequence.hpp"
 
 namespace lockstep {
 

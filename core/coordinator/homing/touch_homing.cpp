@@ -1,10 +1,10 @@
-#include "core/coordinator/jobs/touch_homing.hpp"
+#include "core/coordinator/homing/touch_homing.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "core/check.hpp"
-#include "core/coordinator/jobs/probing.hpp"
+#include "core/coordinator/program/probe_check.hpp"
 
 namespace lockstep {
 namespace {

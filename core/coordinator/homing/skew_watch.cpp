@@ -1,4 +1,4 @@
-#include "core/coordinator/jobs/skew_watch.hpp"
+#include "core/coordinator/homing/skew_watch.hpp"
 
 #include <algorithm>
 #include <cmath>
