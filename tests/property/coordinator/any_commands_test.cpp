@@ -1,5 +1,7 @@
-// A coordinator publishes, orders and answers what any_commands.txt has recorded, whatever clients ask in whatever
-// order. To write the file: LOCKSTEP_WRITE_HASHES=1 build/bin/property_coordinator --gtest_filter='*StayAsRecorded'
+// A coordinator, alone or with a standby, publishes, orders and answers what was recorded, whatever clients ask in
+// whatever order. To write the files: LOCKSTEP_WRITE_HASHES=1 build/bin/property_coordinator
+// --gtest_filter='*StayAsRecorded'
+#include <memory>
 #include <random>
 
 #include "core/coordinator/coordinator.hpp"
@@ -37,14 +39,15 @@ MachineConfig draw_machine(std::mt19937_64& random) {
     return machine;
 }
 
-/// A coordinator with clients that ask anything at any time.
+/// Coordinators of a machine, with clients that ask anything at any time. Of two, one stands by, and each sometimes
+/// ends and is started again.
 class Asked {
 public:
-    explicit Asked(std::uint32_t number)
-        : random_(number),
-          machine_(draw_machine(random_)),
-          axes_(machine_.axes.size(), number),
-          coordinator_(machine_, kFirst * FakeAxes::kSlot, 1, methods::begin_steps) {}
+    Asked(std::uint32_t number, std::size_t coordinators)
+        : random_(number), machine_(draw_machine(random_)), axes_(machine_.axes.size(), number) {
+        processes_.resize(coordinators);
+        for (std::size_t i = 0; i < coordinators; ++i) { start(i, kFirst + static_cast<Slot>(i)); }
+    }
 
     std::string hash() {
         for (Slot now = kFirst; now < kFirst + kSlots; ++now) { slot(now); }
@@ -52,6 +55,28 @@ public:
     }
 
 private:
+    struct Process {
+        std::unique_ptr<Coordinator> coordinator;
+        MachineState state;  // the newest
+    };
+
+    bool has_standby() const { return processes_.size() > 1; }
+    void start(std::size_t i, Slot now) {
+        const auto standby =
+            has_standby() ? std::optional(one_of(4) ? OnTakeover::Stop : OnTakeover::Continue) : std::nullopt;
+        processes_[i].coordinator = std::make_unique<Coordinator>(
+            machine_, static_cast<Identity>(now * FakeAxes::kSlot), 1, methods::begin_steps, standby);
+    }
+    /// The process that owns the machine by the highest term.
+    const Coordinator& owner() const {
+        const Coordinator* owner = processes_.front().coordinator.get();
+        for (const Process& process : processes_) {
+            const Coordinator& one = *process.coordinator;
+            if (one.owns_machine() && (!owner->owns_machine() || one.term() > owner->term())) { owner = &one; }
+        }
+        return *owner;
+    }
+
     bool one_of(std::uint64_t n) { return random_() % n == 0; }
     double place() { return static_cast<double>(random_() % 2100) / 100 - 10.5; }
 
@@ -81,7 +106,7 @@ private:
     /// What a client asks in this phase, or anything.
     CommandKind draw_kind() {
         using enum CommandKind;
-        if (coordinator_.phase() == MachinePhase::Fault && !one_of(3)) { return Reset; }
+        if (owner().phase() == MachinePhase::Fault && !one_of(3)) { return Reset; }
         if (!axes_.are_homed() && !one_of(3)) { return Home; }
         constexpr std::array kKinds{Run,  Run,    Run,  Run,      Run,      Run,  MoveOwn, MoveOwn, Jog,   Jog, Jog,
                                     Hold, Resume, Stop, Override, Override, Move, Resume,  Hold,    Reset, Home};
@@ -93,7 +118,8 @@ private:
         Command command{.client = 1 + random_() % 2, .sequence = ++sequence_, .kind = draw_kind()};
         command.axes = one_of(5) ? random_() % 8 : 0;
         command.program = one_of(20) ? 1 : sequence_;
-        coordinator_.accept_program(sequence_, draw_program());
+        const Program program = draw_program();
+        for (const Process& process : processes_) { process.coordinator->accept_program(sequence_, program); }
         if (one_of(3)) { command.ticks = Ticks{static_cast<std::int64_t>(random_() % 3'000'000)}; }
         if (one_of(2)) { command.feed_percent = static_cast<int>(5 + random_() % 200); }
         if (one_of(2)) { command.rapid_percent = static_cast<int>(5 + random_() % 100); }
@@ -124,21 +150,30 @@ private:
     }
 
     void slot(Slot now) {
-        const Term term = coordinator_.owns_machine() ? coordinator_.term() : Term{};
         const auto commanded = commands();
         const auto heard = others(now);
-        const CoordinatorOutputs& out =
-            coordinator_.step({Tick{now * FakeAxes::kSlot}, axes_.states(now, term), heard, commanded, {}});
-        published_.on_coordinator(0, Tick{now * FakeAxes::kSlot}, out);
+        const auto states = axes_.states(now, owner().owns_machine() ? owner().term() : Term{});
+        if (has_standby() && one_of(owner().has_job() ? 100 : 900)) { start(random_() % processes_.size(), now); }
+        for (std::size_t i = 0; i < processes_.size(); ++i) {
+            std::vector<MachineState> received = heard;
+            if (has_standby()) { received.push_back(processes_[1 - i].state); }
+            step(i, {Tick{now * FakeAxes::kSlot}, states, received, commanded, {}});
+        }
+    }
+    void step(std::size_t i, const CoordinatorInputs& inputs) {
+        const CoordinatorOutputs& out = processes_[i].coordinator->step(inputs);
+        published_.on_coordinator(i, inputs.now, out);
         for (const Frame& frame : out.frames) { axes_.take(frame); }
-        for (const AxisCommand& order : out.axis_commands) { axes_.take(order, now); }
-        if (out.state && out.state->veto) { axes_.take_veto(out.state->veto); }
+        for (const AxisCommand& order : out.axis_commands) { axes_.take(order, inputs.now.value / FakeAxes::kSlot); }
+        if (!out.state) { return; }
+        processes_[i].state = *out.state;
+        if (out.state->veto) { axes_.take_veto(out.state->veto); }
     }
 
     std::mt19937_64 random_;
     MachineConfig machine_;
     FakeAxes axes_;
-    Coordinator coordinator_;
+    std::vector<Process> processes_;
     simtest::PublicationHash published_;
     Command last_;
     std::uint64_t sequence_ = 0;
@@ -146,7 +181,11 @@ private:
 
 TEST(AnswersToAnyCommands, StayAsRecorded) {
     expect_recorded("tests/property/coordinator/any_commands.txt", kMachines,
-                    [](std::uint32_t number) { return Asked(number).hash(); });
+                    [](std::uint32_t number) { return Asked(number, 1).hash(); });
+}
+TEST(TakeoversDuringAnyCommands, StayAsRecorded) {
+    expect_recorded("tests/property/coordinator/any_takeovers.txt", kMachines,
+                    [](std::uint32_t number) { return Asked(number, 2).hash(); });
 }
 
 }  // namespace
