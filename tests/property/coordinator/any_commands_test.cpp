@@ -13,7 +13,7 @@
 namespace lockstep {
 namespace {
 
-constexpr std::uint32_t kMachines = 60;
+constexpr std::uint32_t kMachines = 40;
 constexpr Slot kFirst = 1000;
 constexpr Slot kSlots = 2500;
 

@@ -11,7 +11,7 @@
 namespace lockstep {
 namespace {
 
-constexpr std::uint32_t kPaths = 120;
+constexpr std::uint32_t kPaths = 60;
 constexpr std::uint32_t kPrograms = 600;
 
 using Random = std::mt19937_64;
