@@ -176,5 +176,38 @@ TEST_F(OwnMovesOfAnAxis, GoUpToBothEndsOfTravelAndNoFurther) {
     EXPECT_EQ(orders_of<device::BeginRun>(loop(slot + 1)).size(), 1u);
 }
 
+class AssumedPlace : public ControllerRig {};
+
+TEST_F(AssumedPlace, IsNoHomeUntilItIsTakenForTrue) {
+    owned(10, 20);
+    command(AxisCommandKind::TakePlace, 1234);
+    EXPECT_TRUE(has_notice(loop(slot + 1), AxisNotice::Kind::CommandRefused, FaultCode::NotHomed)) << "none is assumed";
+    command(AxisCommandKind::Assume, 1234);
+    const AxisOutputs assumed = loop(slot + 1);
+    EXPECT_FALSE(assumed.rests) << "it is not kept for the next process";
+    EXPECT_EQ(state.position.count(), 1234);
+    EXPECT_FALSE(state.homed);
+    command(AxisCommandKind::MoveOwn, 1300);
+    EXPECT_TRUE(has_notice(loop(slot + 1), AxisNotice::Kind::CommandRefused, FaultCode::NotHomed));
+    command(AxisCommandKind::TakePlace, 1300);
+    EXPECT_TRUE(has_notice(loop(slot + 1), AxisNotice::Kind::Homed));
+    EXPECT_TRUE(state.homed);
+    EXPECT_EQ(state.position.count(), 1300);
+    EXPECT_EQ(state.phase, AxisPhase::Standby);
+}
+
+TEST_F(AssumedPlace, IsLostWithAFault) {
+    owned(10, 20);
+    command(AxisCommandKind::Assume, 1234);
+    loop(slot + 1);
+    command(AxisCommandKind::StopNow);
+    loop(slot + 1);
+    command(AxisCommandKind::Reset);
+    loop(slot + 1);
+    command(AxisCommandKind::TakePlace, 1234);
+    EXPECT_TRUE(has_notice(loop(slot + 1), AxisNotice::Kind::CommandRefused, FaultCode::NotHomed));
+    EXPECT_FALSE(state.homed);
+}
+
 }  // namespace
 }  // namespace lockstep
