@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/kinematics/motors.hpp"
-#include "core/methods/paper_steps.hpp"
 
 namespace lockstep {
 
@@ -15,9 +14,10 @@ VirtualMachine::VirtualMachine(const VirtualOptions& options)
       devices_(options.machine, clocks_, options.links, options.seed, now_),
       post_(options.network, options.seed, motor_count(options.machine), options.coordinators),
       client_(options.machine),
+      clock_mail_(options_.machine, post_, clocks_, options.network.reply_longer),
       schedule_(post_.processes(), {options.machine.slot_ticks().value / options.loops_per_slot}),
       axes_(motor_count(options.machine)),
-      coordinators_(options.coordinators),
+      coordinators_(options.machine, options.coordinators, options.on_takeover, options.make_rows),
       stalls_(post_.processes()) {
     for (std::size_t i = 0; i < post_.processes(); ++i) { start(i); }
     schedule_.start_all(now_, options_.seed);
@@ -26,7 +26,13 @@ VirtualMachine::VirtualMachine(const VirtualOptions& options)
 /// Starts a new process with a new identity. An axis's process finds its device in its present state.
 void VirtualMachine::start(std::size_t process, bool other_config) {
     const std::uint64_t config_hash = options_.config_hash + (other_config ? 1 : 0);
-    post_.is_coordinator(process) ? start_coordinator(process, config_hash) : start_axis(process, config_hash);
+    if (post_.is_coordinator(process)) {
+        const Identity identity = static_cast<Identity>(clocks_.machine(now_).value) + process;
+        FlightLog* const flight = options_.flight ? &options_.flight(process) : nullptr;
+        coordinators_.start(number_of(process), identity, config_hash, flight);
+    } else {
+        start_axis(process, config_hash);
+    }
     stalls_[process] = {};
     schedule_.start(process, now_);
 }
@@ -34,7 +40,7 @@ void VirtualMachine::start(std::size_t process, bool other_config) {
 void VirtualMachine::start_axis(std::size_t axis, std::uint64_t config_hash) {
     Axis& it = axes_[axis];
     const AxisNode::Setup setup{axis, options_.machine, axis_identities_++, config_hash, it.kept};
-    it.asker.emplace(static_cast<std::uint32_t>(axis), setup.identity, options_.machine.tick_ns);
+    clock_mail_.begin(axis, setup.identity);
     it.node.emplace(setup, [this, axis](Tick) { return devices_.open(axis); });
     it.node->pass_channels([this, axis](const ChannelEvent& event) {
         for (VirtualObserver* observer : observers_) { observer->on_channel(axis, event); }
@@ -44,19 +50,10 @@ void VirtualMachine::start_axis(std::size_t axis, std::uint64_t config_hash) {
     it.node->note_in(*it.flight);
 }
 
-void VirtualMachine::start_coordinator(std::size_t process, std::uint64_t config_hash) {
-    const Identity identity = static_cast<Identity>(clocks_.machine(now_).value) + process;
-    CoordinatorProcess& it = coordinator(process);
-    it.coordinator.emplace(options_.machine, identity, config_hash, methods::begin_steps,
-                           coordinators_.size() > 1 ? std::optional(options_.on_takeover) : std::nullopt,
-                           options_.make_rows);
-    if (options_.flight) { it.flight.emplace(options_.machine, options_.flight(process)); }
-}
-
 void VirtualMachine::crash(std::size_t process) {
     schedule_.end(process);
     stalls_[process] = {};
-    post_.is_coordinator(process) ? coordinator(process).coordinator.reset() : axes_[process].node.reset();
+    post_.is_coordinator(process) ? coordinators_.end(number_of(process)) : axes_[process].node.reset();
 }
 
 void VirtualMachine::restart(const VirtualFault& crash) {
@@ -105,48 +102,15 @@ void VirtualMachine::end(const VirtualFault& fault) {
     }
 }
 
-/// Returns the process with the earliest clock message, if that arrives before the next loop or fault.
-std::optional<std::size_t> VirtualMachine::next_clock_mail() const {
-    if (!asks_time()) { return std::nullopt; }
-    Tick soonest = VirtualNetwork::kNever;
-    if (const auto process = schedule_.next()) { soonest = schedule_.at(*process); }
-    if (const auto edge = faults_.next()) { soonest = std::min(soonest, *edge); }
-    std::optional<std::size_t> next;
-    for (std::size_t i = 0; i < post_.processes(); ++i) {
-        const Tick arrival = post_.next_arrival(post_.clock_of(i));
-        if (arrival >= soonest) { continue; }
-        next = i;
-        soonest = arrival;
-    }
-    return next;
-}
-
-void VirtualMachine::take_clock_mail(std::size_t process) {
-    now_ = std::max(now_, post_.next_arrival(post_.clock_of(process)));
-    const Mail& mail = post_.collect(now_, post_.clock_of(process));
-    if (!schedule_.is_up(process, now_)) { return; }
-    for (const ClockRequest& request : mail.clock_requests) {
-        const Tick time = clocks_.machine(now_);
-        post_.send(now_ + options_.network.reply_longer, process, post_.clock_of(request.axis),
-                   ClockReply{request, time, time});
-    }
-    for (const ClockReply& reply : mail.clock_replies) {
-        Axis& axis = axes_[process];
-        const auto exchange = axis.asker->receive(reply, clocks_.process(process, now_));
-        if (exchange) { axis.exchanges.push_back(*exchange); }
-    }
-}
-
-void VirtualMachine::ask_time(std::size_t axis) {
-    if (!asks_time()) { return; }
-    const auto request = axes_[axis].asker->ask(clocks_.process(axis, now_));
-    if (request) { post_.send(now_, axis, post_.clock_of(post_.coordinator()), *request); }
-}
-
 void VirtualMachine::advance() {
-    if (const auto mail = next_clock_mail()) { return take_clock_mail(*mail); }
     const auto process = schedule_.next();
     const auto edge = faults_.next();
+    const Tick next =
+        std::min(process ? schedule_.at(*process) : VirtualNetwork::kNever, edge.value_or(VirtualNetwork::kNever));
+    if (const auto mail = clock_mail_.next(next)) {
+        now_ = std::max(now_, clock_mail_.arrival(*mail));
+        return clock_mail_.take(*mail, now_, schedule_.is_up(*mail, now_));
+    }
     if (edge && (!process || *edge <= schedule_.at(*process))) {
         now_ = *edge;
         take_edge(faults_.take());
@@ -195,7 +159,7 @@ const AxisOutputs& VirtualMachine::decide_axis(std::size_t i) {
         for (VirtualObserver* observer : observers_) { observer->on_step(i, step); }
     };
     AxisNode& node = *axes_[i].node;
-    const std::vector<ClockExchange> exchanges = std::exchange(axes_[i].exchanges, {});
+    const std::vector<ClockExchange> exchanges = clock_mail_.take_exchanges(i);
     devices_.advance(i, now_);
     const AxisOutputs& out =
         node.decide(clocks_.process(i, now_),
@@ -208,7 +172,7 @@ void VirtualMachine::carry_out(std::size_t i, const AxisOutputs& out) {
     devices_.advance(i, now_);
     axes_[i].node->carry_out(out);
     devices_.advance(i, now_);  // the device carries out its orders
-    ask_time(i);
+    clock_mail_.ask(i, now_);
     if (out.rests && options_.keeps_positions) { axes_[i].kept = *out.rests; }
     if (out.state) { post_.multicast(now_, i, *out.state); }
     if (axes_[i].node->must_restart()) { start_again(i); }
@@ -217,9 +181,7 @@ void VirtualMachine::carry_out(std::size_t i, const AxisOutputs& out) {
 CoordinatorOutputs VirtualMachine::decide_coordinator(std::size_t process) {
     const Mail& mail = post_.collect(now_, process);
     const CoordinatorInputs in{clocks_.machine(now_), mail.axes, mail.machine, mail.commands, mail.parts};
-    CoordinatorProcess& it = coordinator(process);
-    CoordinatorOutputs out = it.coordinator->step(in);
-    if (it.flight) { it.flight->take(in, out); }
+    CoordinatorOutputs out = coordinators_.step(number_of(process), in);
     for (const TakenPart& taken : out.taken) { note_part(process, taken, mail.parts); }
     for (VirtualObserver* observer : observers_) { observer->on_coordinator(process, now_, out); }
     return out;
@@ -258,28 +220,14 @@ std::uint64_t VirtualMachine::ask(const Command& command) {
 void VirtualMachine::repeat_command() { post_.multicast(now_, post_.client(), client_.last_command()); }
 
 std::optional<std::size_t> VirtualMachine::owner() const {
-    const Coordinator* owner = nullptr;
-    std::size_t process = 0;
-    for (std::size_t i = 0; i < coordinators_.size(); ++i) {
-        const auto& one = coordinators_[i].coordinator;
-        const bool owns = one && one->owns_machine();
-        if (!owns || (owner != nullptr && one->term() <= owner->term())) { continue; }
-        owner = &*one;
-        process = axes_.size() + i;
-    }
-    return owner == nullptr ? std::nullopt : std::optional(process);
+    const auto owner = coordinators_.owner();
+    return owner ? std::optional(axes_.size() + *owner) : std::nullopt;
 }
 
 std::uint64_t VirtualMachine::send(ProgramPart part) {
     part = client_.address(std::move(part));
     post_.multicast(now_, post_.client(), part);
     return part.sequence;
-}
-
-void VirtualMachine::give_program(std::uint64_t id, const Program& program) {
-    for (auto& one : coordinators_) {
-        if (one.coordinator) { one.coordinator->accept_program(id, program); }
-    }
 }
 
 }  // namespace lockstep

@@ -8,14 +8,13 @@
 #include <variant>
 #include <vector>
 
-#include "core/clock/clock_asker.hpp"
-#include "core/coordinator/coordinator.hpp"
-#include "core/flight/coordinator_flight.hpp"
 #include "services/axis/axis_node.hpp"
+#include "services/virtual/clock_mail.hpp"
 #include "services/virtual/fault_schedule.hpp"
 #include "services/virtual/machine_clocks.hpp"
 #include "services/virtual/process_schedule.hpp"
 #include "services/virtual/virtual_client.hpp"
+#include "services/virtual/virtual_coordinators.hpp"
 #include "services/virtual/virtual_devices.hpp"
 #include "services/virtual/virtual_post.hpp"
 
@@ -91,7 +90,7 @@ public:
     /// Sends a part of a program over the network. Returns its sequence number.
     std::uint64_t send(ProgramPart part);
     /// Gives every running coordinator a complete program, without the network.
-    void give_program(std::uint64_t id, const Program& program);
+    void give_program(std::uint64_t id, const Program& program) { coordinators_.give_program(id, program); }
     const std::vector<Reply>& replies() const { return client_.replies(); }
     /// The reply to a command; null if none has come yet.
     const Reply* reply_to(std::uint64_t sequence) const { return client_.reply_to(sequence); }
@@ -121,13 +120,7 @@ private:
     struct Axis {
         std::optional<AxisNode> node;
         std::optional<AxisFlight> flight;
-        std::optional<ClockAsker> asker;
-        std::vector<ClockExchange> exchanges;  // not used yet
         KeptOrNot kept = std::unexpected(FaultCode::PositionNotKept);
-    };
-    struct CoordinatorProcess {
-        std::optional<Coordinator> coordinator;
-        std::optional<CoordinatorFlight> flight;
     };
     /// A stall of a process between the decisions and the actions of a loop.
     struct Stall {
@@ -138,7 +131,6 @@ private:
     // Start and end of processes.
     void start(std::size_t process, bool other_config = false);
     void start_axis(std::size_t axis, std::uint64_t config_hash);
-    void start_coordinator(std::size_t process, std::uint64_t config_hash);
     void crash(std::size_t process);
     void restart(const VirtualFault& crash);
     void start_again(std::size_t axis);
@@ -147,12 +139,6 @@ private:
     void take_edge(const FaultSchedule::Edge& edge);
     void begin(const VirtualFault& fault);
     void end(const VirtualFault& fault);
-
-    // Clock messages.
-    std::optional<std::size_t> next_clock_mail() const;
-    void take_clock_mail(std::size_t process);
-    bool asks_time() const { return options_.machine.timing.time_source == TimeSource::Network; }
-    void ask_time(std::size_t axis);
 
     // Loops.
     void run_loop(std::size_t process);
@@ -166,7 +152,8 @@ private:
     void carry_out(std::size_t /*process*/, std::monostate /*nothing*/) {}
     std::uint64_t ask(const Command& command);
 
-    CoordinatorProcess& coordinator(std::size_t process) { return coordinators_[process - axes_.size()]; }
+    /// The number of a coordinator by that of its process.
+    std::size_t number_of(std::size_t process) const { return process - axes_.size(); }
 
     VirtualOptions options_;
     Tick now_;
@@ -174,10 +161,11 @@ private:
     VirtualDevices devices_;
     VirtualPost post_;
     VirtualClient client_;
+    ClockMail clock_mail_;
     FaultSchedule faults_;
     ProcessSchedule schedule_;
     std::vector<Axis> axes_;
-    std::vector<CoordinatorProcess> coordinators_;
+    VirtualCoordinators coordinators_;
     std::vector<Stall> stalls_;       // the axes, then the coordinators
     Identity axis_identities_ = 100;  // the next one
     std::vector<VirtualObserver*> observers_;
