@@ -53,7 +53,7 @@ private:
     bool is_lease_lost_ = false;
     bool hold_sent_ = false;
     bool stop_sent_ = false;
-    std::optional<std::chrono::nanoseconds> rest_asked_;  // Session::running_time() when the latest of both was sent
+    std::optional<std::chrono::nanoseconds> rest_asked_;  // OwnerWatch::running_time() when the latest of both was sent
     std::optional<std::int32_t> line_;                    // the last line in motion
     std::optional<MachinePhase> printed_;
     std::optional<Pause> printed_pause_;

@@ -1,5 +1,5 @@
 // Requests to the machine that are not answered yet. Each is polled in the machine's thread and never waits. Deadlines
-// count in Session::running_time().
+// count in OwnerWatch::running_time().
 #pragma once
 
 #include <chrono>
