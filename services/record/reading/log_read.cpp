@@ -21,6 +21,15 @@ void deliver(const LogEvent& event, LogListener& listener, void (LogListener::*h
     }
 }
 
+void deliver_steps(const LogEvent& event, LogListener& listener, step_batch_t& message) {
+    const LogPlace place{event.offset, event.bytes};
+    message.delta_ticks.clear();
+    message.direction.clear();
+    const auto decoded = decode_lcm(event.data, message);
+    if (!decoded) { return listener.on_damage(place, decoded.error() + " on " + std::string(event.channel)); }
+    listener.on_steps(message, place);
+}
+
 void deliver_part(const LogEvent& event, LogListener& listener, ProgramParts& programs) {
     const LogPlace place{event.offset, event.bytes};
     const auto part = decode_lcm<program_part_t>(event.data);
@@ -79,9 +88,11 @@ void deliver_mark(const LogEvent& event, LogListener& listener) {
     listener.on_mark(*mark, place);
 }
 
-void deliver(const LogEvent& event, LogListener& listener, ProgramParts& programs, const std::filesystem::path& path) {
+/// `steps`: its memory is used again for each message of steps.
+void deliver(const LogEvent& event, LogListener& listener, ProgramParts& programs, const std::filesystem::path& path,
+             step_batch_t& steps) {
     switch (kind_of(event.channel)) {
-        case RecordKind::Steps: return deliver<step_batch_t>(event, listener, &LogListener::on_steps);
+        case RecordKind::Steps: return deliver_steps(event, listener, steps);
         case RecordKind::Position: return deliver<axis_position_t>(event, listener, &LogListener::on_position);
         case RecordKind::Health: return deliver<axis_health_t>(event, listener, &LogListener::on_health);
         case RecordKind::Run: return deliver<run_t>(event, listener, &LogListener::on_run);
@@ -100,11 +111,12 @@ std::expected<std::uint64_t, std::string> read_events(LogReader& reader, const s
                                                       LogListener& listener, double file_bytes,
                                                       const std::function<void(double)>& progress) {
     ProgramParts programs(path);
+    step_batch_t steps;
     for (std::uint64_t events = 0;; ++events) {
         const auto event = reader.next();
         if (!event) { return std::unexpected(event.error()); }
         if (!*event) { return events; }
-        deliver(**event, listener, programs, path);
+        deliver(**event, listener, programs, path, steps);
         if (progress && events % kEventsPerProgress == 0) {
             progress(static_cast<double>((*event)->offset) / file_bytes);
         }

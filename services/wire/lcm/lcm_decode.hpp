@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
@@ -64,18 +65,24 @@ bool has_layout(std::span<const std::uint8_t> bytes, std::string_view layout);
 std::uint64_t big_endian(std::span<const std::uint8_t> bytes);
 }  // namespace detail
 
-/// Error: what is wrong with the bytes.
+/// Decodes into a message without elements. If it was used before, the memory of its arrays is used again. Error: what
+/// is wrong with the bytes; then the message has any content.
 template <typename Message>
-std::expected<Message, std::string> decode_lcm(std::span<const std::uint8_t> bytes) {
+std::expected<void, std::string> decode_lcm(std::span<const std::uint8_t> bytes, Message& message) {
     const std::string name = Message::getTypeName();
     if (bytes.size() < 8 || detail::big_endian(bytes.first(8)) != static_cast<std::uint64_t>(Message::getHash())) {
         return std::unexpected("not a " + name + " of this version");
     }
     if (!detail::has_layout(bytes.subspan(8), kLcmLayout<Message>)) { return std::unexpected("a damaged " + name); }
-    Message message{};
     if (message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) != static_cast<int>(bytes.size())) {
         return std::unexpected("a damaged " + name);
     }
+    return {};
+}
+template <typename Message>
+std::expected<Message, std::string> decode_lcm(std::span<const std::uint8_t> bytes) {
+    Message message{};
+    if (auto decoded = decode_lcm(bytes, message); !decoded) { return std::unexpected(std::move(decoded.error())); }
     return message;
 }
 

@@ -129,6 +129,21 @@ TEST(LcmDecode, EveryMessageOfTheRecordComesBack) {
     expect_decodes_back(a_flight_note());
 }
 
+TEST(LcmDecode, AMessageThatWasUsedBeforeBecomesTheNextOne) {
+    step_batch_t longer = a_batch();
+    longer.count = 4;
+    longer.delta_ticks.push_back(5);
+    longer.direction.push_back(1);
+    step_batch_t message;
+    ASSERT_TRUE(decode_lcm(std::span<const std::uint8_t>(encoded(longer)), message));
+    const auto* const memory = message.delta_ticks.data();
+    message.delta_ticks.clear();
+    message.direction.clear();
+    ASSERT_TRUE(decode_lcm(std::span<const std::uint8_t>(encoded(a_batch())), message));
+    EXPECT_EQ(encoded(message), encoded(a_batch()));
+    EXPECT_EQ(message.delta_ticks.data(), memory);
+}
+
 TEST(LcmDecode, AnotherTypeIsRefused) { EXPECT_FALSE(decode_lcm<run_t>(encoded(a_batch()))); }
 
 /// Cuts the message at every length, and overwrites each of its bytes in turn.
