@@ -36,10 +36,10 @@ public:
     bool takes(Point point) {
         const Point to{point.x - anchor_.x, point.y - anchor_.y};
         const double square = to.x * to.x + to.y * to.y;
-        const double distance = std::sqrt(square);
-        if (distance + tolerance_ < farthest_) { return false; }
-        farthest_ = std::max(farthest_, distance);
-        return distance <= tolerance_ || narrow(to, std::sqrt(square - tolerance_ * tolerance_));
+        if (square < farthest_square_ && std::sqrt(square) + tolerance_ < std::sqrt(farthest_square_)) { return false; }
+        farthest_square_ = std::max(farthest_square_, square);
+        const double tangent_square = square - tolerance_ * tolerance_;
+        return tangent_square <= 0 || narrow(to, std::sqrt(tangent_square));
     }
 
 private:
@@ -57,7 +57,7 @@ private:
 
     Point anchor_;
     double tolerance_;
-    double farthest_ = 0;
+    double farthest_square_ = 0;  // distance from the anchor
     bool open_ = false;
     Point right_;
     Point left_;
