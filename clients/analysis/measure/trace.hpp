@@ -40,8 +40,7 @@ public:
 
 private:
     static constexpr std::size_t kBlock = 16;
-    bool steps(std::span<const StepEdge, kBlock> edges);
-    bool go_on(std::span<const StepEdge, kBlock> edges) const;
+    bool block(const StepEdges& steps, std::size_t first);
     void step(StepEdge edge, std::int64_t position_before);
     void rest(Tick until, std::int64_t position);
     void point(Tick tick, double position);

@@ -93,18 +93,22 @@ void StepMaker::begin_piece() {
 }
 
 void StepMaker::make_more() {
-    made_.clear();
-    made_.reserve(kMadeAtOnce);
-    passed_ = 0;
-    while (made_.empty()) {
+    steps_.resize(kMadeAtOnce);
+    made_ = passed_ = 0;
+    while (made_ == 0) {
         if (engine_.idle()) {
             if (begun_ == run_.pieces.size()) { return; }
             begin_piece();
         }
-        engine_.run(engine_.now() + engine_.remaining(), [this](StepEdge step) {
-            made_.push_back(step);
-            return made_.size() < kMadeAtOnce;
+        StepEngine engine = engine_;  // the compiler knows that no step is stored into it
+        StepEdge* to = steps_.data();
+        const StepEdge* const end = to + kMadeAtOnce;
+        engine.run(engine.now() + engine.remaining(), [&](StepEdge step) {
+            *to++ = step;
+            return to != end;
         });
+        engine_ = engine;
+        made_ = static_cast<std::size_t>(to - steps_.data());
     }
 }
 
