@@ -93,22 +93,18 @@ void StepMaker::begin_piece() {
 }
 
 void StepMaker::make_more() {
-    steps_.resize(kMadeAtOnce);
-    made_ = passed_ = 0;
-    while (made_ == 0) {
+    made_.clear();
+    made_.reserve(kMadeAtOnce);
+    passed_ = 0;
+    while (made_.empty()) {
         if (engine_.idle()) {
             if (begun_ == run_.pieces.size()) { return; }
             begin_piece();
         }
-        StepEngine engine = engine_;  // the compiler knows that no step is stored into it
-        StepEdge* to = steps_.data();
-        const StepEdge* const end = to + kMadeAtOnce;
-        engine.run(engine.now() + engine.remaining(), [&](StepEdge step) {
-            *to++ = step;
-            return to != end;
+        engine_.run(engine_.now() + engine_.remaining(), [this](StepEdge step) {
+            made_.push_back(step);
+            return made_.size() < kMadeAtOnce;
         });
-        engine_ = engine;
-        made_ = static_cast<std::size_t>(to - steps_.data());
     }
 }
 

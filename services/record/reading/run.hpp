@@ -72,14 +72,14 @@ public:
     const Run& run() const { return run_; }
     /// The next step; null at the end of the pieces.
     const StepEdge* next() {
-        if (passed_ == made_) { make_more(); }
-        return passed_ < made_ ? &steps_[passed_] : nullptr;
+        if (passed_ == made_.size()) { make_more(); }
+        return passed_ < made_.size() ? &made_[passed_] : nullptr;
     }
-    void pass() { count_ += steps_[passed_++].direction; }
+    void pass() { count_ += made_[passed_++].direction; }
     /// The next steps, as many as are made at once; empty at the end of the pieces.
     std::span<const StepEdge> ready() {
         (void)next();
-        return std::span(steps_).first(made_).subspan(passed_);
+        return std::span(made_).subspan(passed_);
     }
     /// The machine time commanded for a ready step.
     Tick commanded_at(Tick tick) const { return commanded_.at(tick); }
@@ -105,11 +105,10 @@ private:
 
     Run run_;
     StepEngine engine_;
-    std::size_t begun_ = 0;        // number of pieces begun
-    ClockStretch commanded_;       // of the piece begun last, from device time to commanded time
-    std::vector<StepEdge> steps_;  // room for kMadeAtOnce
-    std::size_t made_ = 0;         // number of steps in it
-    std::size_t passed_ = 0;       // number of these that were passed
+    std::size_t begun_ = 0;   // number of pieces begun
+    ClockStretch commanded_;  // of the piece begun last, from device time to commanded time
+    std::vector<StepEdge> made_;
+    std::size_t passed_ = 0;  // number of steps of made_ passed
     std::int64_t count_;
 };
 
