@@ -34,6 +34,8 @@ public:
 
     /// Adds a copy as the last element.
     T& push_back(const T& value) { return next() = value; }
+    /// Adds an earlier element, to be overwritten.
+    T& reuse_back() { return next(); }
     /// Adds what `make(old)` returns as the last element. `old` is an earlier element, whose memory it may take.
     template <typename Make>
     T& renew_back(Make&& make) {

@@ -1,6 +1,7 @@
 // One number for each axis of a machine, in the order of its configuration.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -16,6 +17,12 @@ inline AxisVector zeros(std::size_t axes) {
     AxisVector v;
     for (std::size_t i = 0; i < axes; ++i) { v.append(0); }
     return v;
+}
+
+/// Calls visit(i) for each axis, or row, of a set, in ascending order.
+template <typename Visit>
+void each_of(AxisSet set, Visit visit) {
+    for (; set != 0; set &= set - 1) { visit(static_cast<std::size_t>(std::countr_zero(set))); }
 }
 
 /// The distance of two places (in steps) in mm: the root of the sum of the axes' squares.

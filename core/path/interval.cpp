@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace lockstep {
 namespace {
@@ -15,77 +16,91 @@ constexpr double kChargedShare = 0.999;
 
 }  // namespace
 
+void IntervalBounds::collect() const {
+    if (std::exchange(is_collected_, true)) { return; }
+    const JoinedPiece& piece = *piece_;
+    rows_.clear();
+    bend_limit_ = kUnbounded;
+    each_of(piece.rows & all_axes(setup_.rows()), [&](std::size_t i) {
+        const AxisLimits& limits = setup_.limits[i];
+        const double own = piece.shape.bend.begin()[i];
+        const double charged = piece.is_charged ? piece.charged.begin()[i] : 0;
+        rows_.append({piece.shape.slope.begin()[i], own, charged, 2 * weaker(limits), limits.max_velocity});
+        const double bend = std::max(std::abs(own), piece.is_charged ? std::abs(charged) / kChargedShare : 0);
+        if (bend > kNothing) { bend_limit_ = std::min(bend_limit_, weaker(limits) / bend); }
+    });
+}
+
 /// Calls visit(p, q, 2 d a) for each bound |q w1 - p w0| <= 2 d a: at the interval's beginning and end with the axis's
 /// own bend, and at its middle with the bend that its joints charge.
 template <typename Visit>
-void IntervalBounds::each_axis(Visit visit) const {
-    const double d = interval_.length();
-    const double middle = (interval_.from + interval_.to) / 2;
-    for (std::size_t i = 0; i < setup_.limits.size(); ++i) {
-        const double slope = piece_.shape.slope_at(i, middle);
-        const double bend = piece_.shape.bend.begin()[i] * d;
-        const double change = 2 * d * weaker(setup_.limits[i]);
+void IntervalBounds::each_bound(Visit visit) const {
+    collect();
+    const double d = interval_->length();
+    const double middle = (interval_->from + interval_->to) / 2 - piece_->shape.length / 2;
+    const bool is_charged = piece_->is_charged;
+    for (const Row& row : rows_) {
+        const double slope = row.slope + row.bend * middle;
+        const double bend = row.bend * d;
+        const double change = d * row.twice_weaker;
         visit(slope - 2.5 * bend, slope - 0.5 * bend, change);
         if (bend != 0) { visit(slope + 0.5 * bend, slope + 2.5 * bend, change); }
-        if (!piece_.is_charged) { continue; }
-        const double charged = piece_.charged.begin()[i] * d;
-        visit(slope - charged, slope + charged, change);
+        if (is_charged) { visit(slope - row.charged * d, slope + row.charged * d, change); }
     }
 }
 
 double IntervalBounds::before(double w1) const {
-    if (interval_.kind == IntervalKind::Rest) { return kUnbounded; }
-    if (interval_.kind == IntervalKind::Straight) { return w1 + 2 * interval_.deceleration * interval_.length(); }
+    if (interval_->kind == IntervalKind::Rest) { return kUnbounded; }
+    if (interval_->kind == IntervalKind::Straight) { return w1 + 2 * interval_->deceleration * interval_->length(); }
     double w0 = kUnbounded;
-    each_axis([&](double t0, double t1, double change) {
+    each_bound([&](double t0, double t1, double change) {
         if (std::abs(t0) < kNothing) { return; }
-        w0 = std::min(w0, (change + w1 * (t0 > 0 ? t1 : -t1)) / std::abs(t0));
+        w0 = std::min(w0, (change + w1 * (std::copysign(1.0, t0) * t1)) / std::abs(t0));
     });
     return std::max(w0, 0.0);
 }
 
 double IntervalBounds::after(double w0) const {
-    if (interval_.kind == IntervalKind::Rest) { return kUnbounded; }
-    if (interval_.kind == IntervalKind::Straight) { return w0 + 2 * interval_.acceleration * interval_.length(); }
+    if (interval_->kind == IntervalKind::Rest) { return kUnbounded; }
+    if (interval_->kind == IntervalKind::Straight) { return w0 + 2 * interval_->acceleration * interval_->length(); }
     double w1 = kUnbounded;
-    each_axis([&](double t0, double t1, double change) {
+    each_bound([&](double t0, double t1, double change) {
         if (std::abs(t1) < kNothing) { return; }
-        w1 = std::min(w1, (change + w0 * (t1 > 0 ? t0 : -t0)) / std::abs(t1));
+        w1 = std::min(w1, (change + w0 * (std::copysign(1.0, t1) * t0)) / std::abs(t1));
     });
     return std::max(w1, 0.0);
 }
 
 double IntervalBounds::least_after(double w0) const {
-    if (interval_.kind == IntervalKind::Rest) { return 0; }
-    if (interval_.kind == IntervalKind::Straight) { return w0 - 2 * interval_.deceleration * interval_.length(); }
+    if (interval_->kind == IntervalKind::Rest) { return 0; }
+    if (interval_->kind == IntervalKind::Straight) { return w0 - 2 * interval_->deceleration * interval_->length(); }
     double w1 = -kUnbounded;
-    each_axis([&](double t0, double t1, double change) {
+    each_bound([&](double t0, double t1, double change) {
         if (std::abs(t1) < kNothing) { return; }
-        w1 = std::max(w1, (w0 * (t1 > 0 ? t0 : -t0) - change) / std::abs(t1));
+        w1 = std::max(w1, (w0 * (std::copysign(1.0, t1) * t0) - change) / std::abs(t1));
     });
     return std::min(w1, w0);  // a greater w1 is only rounding, which would grow from interval to interval
 }
 
 /// Overrides scale the feed. In rapid moves they scale the speeds that the axes allow, and never exceed these.
 double IntervalBounds::cap(const Overrides& overrides) const {
-    const double most = piece_.shape.most_mm_per_tick * piece_.shape.most_mm_per_tick;
-    if (!piece_.shape.feed_mm_per_tick) { return std::min(most, limit(std::min(1.0, overrides.rapid()))); }
-    const double feed = *piece_.shape.feed_mm_per_tick * (piece_.shape.is_feed_fixed ? 1 : overrides.feed());
+    const double most = piece_->shape.most_mm_per_tick * piece_->shape.most_mm_per_tick;
+    if (!piece_->shape.feed_mm_per_tick) { return std::min(most, limit(std::min(1.0, overrides.rapid()))); }
+    const double feed = *piece_->shape.feed_mm_per_tick * (piece_->shape.is_feed_fixed ? 1 : overrides.feed());
     return std::min({feed * feed, most, limit()});
 }
 
 double IntervalBounds::limit(double speed_share) const {
-    const Quadratic& shape = piece_.shape;
-    double w = kUnbounded;
-    for (std::size_t i = 0; i < setup_.limits.size(); ++i) {
-        const AxisLimits& axis = setup_.limits[i];
-        const double slope =
-            std::max(std::abs(shape.slope_at(i, interval_.from)), std::abs(shape.slope_at(i, interval_.to)));
-        double bend = std::abs(shape.bend.begin()[i]);
-        if (piece_.is_charged) { bend = std::max(bend, std::abs(piece_.charged.begin()[i]) / kChargedShare); }
-        const double speed = axis.max_velocity * speed_share * (shape.is_straight ? 1 : kCurvedSpeedShare);
+    collect();
+    const Quadratic& shape = piece_->shape;
+    const double from = interval_->from - shape.length / 2;
+    const double to = interval_->to - shape.length / 2;
+    const double curved_share = shape.is_straight ? 1 : kCurvedSpeedShare;
+    double w = bend_limit_;
+    for (const Row& row : rows_) {
+        const double slope = std::max(std::abs(row.slope + row.bend * from), std::abs(row.slope + row.bend * to));
+        const double speed = row.max_velocity * speed_share * curved_share;
         if (slope > kNothing) { w = std::min(w, speed * speed / (slope * slope)); }
-        if (bend > kNothing) { w = std::min(w, weaker(axis) / bend); }
     }
     return w;
 }

@@ -24,8 +24,11 @@ struct JoinedPiece {
     Quadratic shape;
     bool is_charged = false;     // jumps at its ends count as curvature: `charged` is used in place of bend
     AxisVector charged;          // steps per mm^2
-    double begin_cap = 0x1p100;  // w at its joints if they are slowed instead, so that the piece recovers their jumps
-    double end_cap = 0x1p100;
+    AxisSet rows = ~AxisSet{0};  // all that move in it, or in the pieces beside it
+    double begin_cap = kNoCap;   // w at its joints if they are slowed instead, so that the piece recovers their jumps
+    double end_cap = kNoCap;
+
+    static constexpr double kNoCap = 0x1p100;
 };
 
 /// The speed changes steadily from end to end (Curved), or rises, is constant and falls (Straight).
@@ -47,11 +50,19 @@ struct Interval {
     double length() const { return to - from; }
 };
 
-/// The bounds of one interval on the squares of speed at its ends.
+/// The bounds of one interval on the squares of speed at its ends. What all intervals of a piece have in common is
+/// collected once if they follow each other.
 class IntervalBounds {
 public:
-    IntervalBounds(const PathSetup& setup, const JoinedPiece& piece, const Interval& interval)
-        : setup_(setup), piece_(piece), interval_(interval) {}
+    IntervalBounds(const PathSetup& setup, const JoinedPiece& piece, const Interval& interval) : setup_(setup) {
+        take(piece, interval);
+    }
+    /// Goes to another interval. A piece must not change while its intervals are taken.
+    void take(const JoinedPiece& piece, const Interval& interval) {
+        interval_ = &interval;
+        is_collected_ = is_collected_ && &piece == piece_;
+        piece_ = &piece;
+    }
 
     /// The greatest w at the beginning that can be followed by `w1` at the end.
     double before(double w1) const;
@@ -65,12 +76,25 @@ public:
     double limit(double speed_share = 1) const;
 
 private:
+    /// A row that moves along the piece.
+    struct Row {
+        double slope;
+        double bend;
+        double charged;
+        double twice_weaker;  // steps per tick^2
+        double max_velocity;
+    };
+    void collect() const;
     template <typename Visit>
-    void each_axis(Visit visit) const;
+    void each_bound(Visit visit) const;
 
     const PathSetup& setup_;
-    const JoinedPiece& piece_;
-    const Interval& interval_;
+    const JoinedPiece* piece_ = nullptr;
+    const Interval* interval_ = nullptr;
+    // Mutable because they are collected when they are first needed.
+    mutable bool is_collected_ = false;
+    mutable StaticVector<Row, kMaxAxes> rows_;
+    mutable double bend_limit_ = 0;  // the greatest w that bends and charges allow
 };
 
 }  // namespace lockstep

@@ -18,10 +18,10 @@ constexpr std::size_t kLeastParts = 4;  // of a piece that may be faster than th
 /// The angle by which a piece turns over `length`, rad.
 double turn_of(const Quadratic& piece, double length, const PathSetup& setup) {
     double square = 0;
-    for (std::size_t i = 0; i < setup.axes(); ++i) {
+    each_of(piece.moving >> setup.first_axis_row(), [&](std::size_t i) {
         const double bend = piece.bend.begin()[setup.first_axis_row() + i] / setup.steps_per_mm[i];
         square += bend * bend;
-    }
+    });
     return std::sqrt(square) * length;
 }
 
@@ -34,8 +34,7 @@ void SpeedWindow::restart(const Overrides& overrides, const PathSpot& begin) {
     pieces_.clear();
     intervals_.clear();
     first_ = final_ = 0;
-    pending_.reset();
-    before_.reset();
+    is_open_ = false;
     joint_.reset();
     due_ = kLeastPass;
     end_cap_ = 0;
@@ -48,8 +47,13 @@ void SpeedWindow::add(const Quadratic& piece) {
 }
 
 void SpeedWindow::add_rows(const Quadratic& piece) {
-    if (pending_) { close_pending(&piece); }
-    pending_ = piece;
+    JoinedPiece& open = pieces_.reuse_back();
+    open.shape = piece;
+    open.shape.moving = moving_rows(piece);
+    open.begin_cap = open.end_cap = JoinedPiece::kNoCap;
+    open.is_charged = false;
+    if (is_open_) { close_piece(pieces_.size() - 2); }
+    is_open_ = true;
     if (end() - final_ >= due_) { look_ahead(); }
 }
 
@@ -60,11 +64,11 @@ void SpeedWindow::finish() {
 }
 
 void SpeedWindow::close_end() {
-    if (pending_) {
-        end_cap_ = joint(&*pending_, nullptr).cap;
-        close_pending(nullptr);
+    if (is_open_) {
+        end_cap_ = joint(&pieces_.back().shape, nullptr).cap;
+        close_piece(pieces_.size() - 1);
     }
-    pending_.reset();
+    is_open_ = false;
     is_finished_ = true;
 }
 
@@ -73,18 +77,18 @@ SpeedWindow::Joint SpeedWindow::joint(const Quadratic* before, const Quadratic* 
     Joint joint{kMost, 0};
     const bool is_stop = before == nullptr || after == nullptr;
     const bool is_rest = (before != nullptr && before->length == 0) || (after != nullptr && after->length == 0);
-    for (std::size_t i = 0; i < setup_.rows(); ++i) {
+    each_of(Neighbours{before, after, {}, {}}.moving(), [&](std::size_t i) {
         const double t0 = before == nullptr || before->length == 0 ? 0 : before->slope_at(i, before->length);
         const double t1 =
             after == nullptr || after->length == 0 ? 0 : after->slope_at(i, before == nullptr ? begin_of(*after) : 0);
         const double jump = std::abs(t1 - t0);
-        if (jump < kNothing) { continue; }
+        if (jump < kNothing) { return; }
         const double start = setup_.limits[i].start_velocity;
         const double share = is_rest && !is_stop ? kRestShare : is_stop ? kStopShare : kJointShare;
         const double speed = share * start / jump;
         joint.cap = std::min(joint.cap, speed * speed);
         joint.jump = std::max(joint.jump, jump / start);
-    }
+    });
     return joint;
 }
 
@@ -123,15 +127,15 @@ struct SpeedWindow::FastPassage {
 
 SpeedWindow::FastPassage SpeedWindow::fast_passage(const JoinedPiece& piece, const Neighbours& beside) const {
     const Quadratic& shape = piece.shape;
-    const double from = beside.before == nullptr ? begin_of(piece.shape) : 0;
+    const double from = begin_of(shape, beside);
     const IntervalKind kind = shape.is_straight ? IntervalKind::Straight : IntervalKind::Curved;
     const Interval whole{.kind = kind, .from = from, .to = shape.length};
     const double top = IntervalBounds(setup_, piece, whole).cap(overrides_);
     double path_acceleration = kMost;
-    for (std::size_t i = 0; i < setup_.rows(); ++i) {
+    each_of(shape.moving, [&](std::size_t i) {
         const double slope = std::abs(shape.slope.begin()[i]);
         if (slope > kNothing) { path_acceleration = std::min(path_acceleration, weaker(setup_.limits[i]) / slope); }
-    }
+    });
     const double w0 = std::min({beside.begin.cap, top, piece.begin_cap});
     const double w1 = std::min({beside.end.cap, top, piece.end_cap});
     return {w0, w1, top, path_acceleration, whole};
@@ -145,32 +149,33 @@ void SpeedWindow::charge(JoinedPiece& piece, const Neighbours& beside) const {
     const Quadratic* const next = beside.next;
     const Quadratic& shape = piece.shape;
     const FastPassage fast = fast_passage(piece, beside);
-    const double length = shape.length - (before == nullptr ? begin_of(shape) : 0);
+    const double length = shape.length - begin_of(shape, beside);
     const bool follows = beside.follows();
     const bool goes_on = beside.goes_on();
     piece.is_charged = false;
-    piece.charged = shape.bend;
-    for (std::size_t i = 0; i < setup_.rows(); ++i) {
+    each_of(piece.rows, [&](std::size_t i) {
         const double turn0 = follows ? shape.slope_at(i, 0) - before->slope_at(i, before->length) : 0;
         const double turn1 = goes_on ? next->slope_at(i, 0) - shape.slope_at(i, shape.length) : 0;
         const double jumps = (turn0 * fast.v0 + turn1 * fast.v1) / 2;
         const double recovered =
             shape.is_straight ? fast.recovers(shape.slope[i], weaker(setup_.limits[i]), jumps > 0) : 0;
-        if (std::abs(jumps) <= recovered) { continue; }
+        if (std::abs(jumps) <= recovered) { return; }
+        if (!piece.is_charged) { piece.charged = shape.bend; }
         piece.is_charged = true;
         piece.charged[i] += (turn0 + turn1) / (2 * length);
-    }
+    });
 }
 
 /// Slows the joints in place of the charge, if that takes less time. This is so for a long piece with a joint from
 /// which one axis recovers slowly: the charge would slow the whole piece.
 void SpeedWindow::slow_joints(JoinedPiece& piece, const Neighbours& beside) const {
-    const double from = beside.before == nullptr ? begin_of(piece.shape) : 0;
+    const double from = begin_of(piece.shape, beside);
     const Interval whole{.kind = IntervalKind::Curved, .from = from, .to = piece.shape.length};
     const double charged_ticks = whole.length() / std::sqrt(IntervalBounds(setup_, piece, whole).cap(overrides_));
     const FastPassage fast = fast_passage(piece, beside);
     JoinedPiece slowed;
     slowed.shape = piece.shape;
+    slowed.rows = piece.rows;
     double share = 1;
     for (int halves = 0; halves < kMostHalves; ++halves) {
         share /= 2;
@@ -183,44 +188,45 @@ void SpeedWindow::slow_joints(JoinedPiece& piece, const Neighbours& beside) cons
     }
 }
 
-void SpeedWindow::close_pending(const Quadratic* next) {
-    if (is_passed(*pending_, next)) {
-        if (next == nullptr || next->piece != pending_->piece) { begin_u_ = 0; }
+/// Closes a piece when the next one is known, or there is none.
+void SpeedWindow::close_piece(std::size_t k) {
+    JoinedPiece& piece = pieces_[k];
+    Neighbours beside{k > 0 ? shape_at(k - 1) : nullptr, shape_at(k + 1), {}, {}};
+    if (is_passed(piece.shape, beside)) {
+        if (beside.next == nullptr || beside.next->piece != piece.shape.piece) { begin_u_ = 0; }
         ++first_piece_;
-        return;
+        return pieces_.pop_front();
     }
-    JoinedPiece piece;
-    piece.shape = *pending_;
-    const Neighbours beside{before(), next, joint_ ? *joint_ : joint(before(), &*pending_), joint(&*pending_, next)};
+    beside.begin = joint_ ? *joint_ : joint(beside.before, &piece.shape);
+    beside.end = joint(&piece.shape, beside.next);
+    joint_ = beside.end;
+    piece.rows = piece.shape.moving | beside.moving();
     if (piece.shape.length > 0) { charge(piece, beside); }
     if (piece.is_charged && piece.shape.is_straight) { slow_joints(piece, beside); }
-    Joint begin = beside.begin;
-    begin.cap = std::min({begin.cap, piece.begin_cap, pieces_.empty() ? kMost : pieces_.back().end_cap});
-    cut_piece(piece, begin, beside.end);
-    before_ = pending_;
-    joint_ = beside.end;
+    beside.begin.cap = std::min({beside.begin.cap, piece.begin_cap, k > 0 ? pieces_[k - 1].end_cap : kMost});
+    cut_piece(k, beside);
 }
 
 /// Whether the path begins at the end of the piece. If the machine must rest there, the shortest remainder counts.
-bool SpeedWindow::is_passed(const Quadratic& piece, const Quadratic* next) const {
-    if (before_ || piece.length == 0) { return false; }
-    const bool goes_on = next != nullptr && next->length > 0;
-    return piece.length - begin_of(piece) <= (goes_on ? kLeastBegin_mm : 0);
+bool SpeedWindow::is_passed(const Quadratic& piece, const Neighbours& beside) const {
+    if (beside.before != nullptr || piece.length == 0) { return false; }
+    return piece.length - begin_of(piece) <= (beside.goes_on() ? kLeastBegin_mm : 0);
 }
 
 /// Whether the piece may be faster than both of its ends.
-bool SpeedWindow::is_slow_at_ends(const JoinedPiece& piece, const Joint& begin, const Joint& end) const {
-    const Interval whole{.from = before_ ? 0 : begin_of(piece.shape), .to = piece.shape.length};
+bool SpeedWindow::is_slow_at_ends(const JoinedPiece& piece, const Neighbours& beside) const {
+    const Interval whole{.from = begin_of(piece.shape, beside), .to = piece.shape.length};
     const double top = IntervalBounds(setup_, piece, whole).cap(overrides_);
-    return begin.cap < top && std::min(end.cap, piece.end_cap) < top;
+    return beside.begin.cap < top && std::min(beside.end.cap, piece.end_cap) < top;
 }
 
-void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin, const Joint& end) {
+void SpeedWindow::cut_piece(std::size_t k, const Neighbours& beside) {
+    const JoinedPiece& piece = pieces_[k];
     const Quadratic& shape = piece.shape;
-    const double from = before_ ? 0 : begin_of(shape);
+    const Joint& begin = beside.begin;
+    const double from = begin_of(shape, beside);
     const double length = shape.length - from;
-    pieces_.push_back(piece);
-    Interval part{.piece = first_piece_ + pieces_.size() - 1, .jump = begin.jump, .joint = begin.cap};
+    Interval part{.piece = first_piece_ + k, .jump = begin.jump, .joint = begin.cap};
     double cap = begin.cap;
     std::size_t parts = 1;
     if (shape.length == 0) {
@@ -228,25 +234,29 @@ void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin, const 
     } else if (shape.is_straight && !piece.is_charged) {
         part.kind = IntervalKind::Straight;
         part.acceleration = part.deceleration = kMost;
-        for (std::size_t i = 0; i < setup_.rows(); ++i) {
+        each_of(shape.moving, [&](std::size_t i) {
             const double slope = std::abs(shape.slope.begin()[i]);
-            if (slope <= kNothing) { continue; }
+            if (slope <= kNothing) { return; }
             part.acceleration = std::min(part.acceleration, setup_.limits[i].max_acceleration / slope);
             part.deceleration = std::min(part.deceleration, setup_.limits[i].max_deceleration / slope);
-        }
+        });
     } else {
         const double by_length = length / kMaxInterval_mm;
         const double by_turn = turn_of(shape, length, setup_) / kMaxTurn;
         parts = 1 + static_cast<std::size_t>(std::max(by_length, by_turn));
-        if (parts < kLeastParts && (shape.is_straight || is_slow_at_ends(piece, begin, end))) { parts = kLeastParts; }
+        if (parts < kLeastParts && (shape.is_straight || is_slow_at_ends(piece, beside))) { parts = kLeastParts; }
     }
-    for (std::size_t k = 0; k < parts; ++k) {
-        part.from = from + length * static_cast<double>(k) / static_cast<double>(parts);
-        part.to =
-            k + 1 == parts ? shape.length : from + length * static_cast<double>(k + 1) / static_cast<double>(parts);
-        part.top = part.kind == IntervalKind::Rest ? kMost : IntervalBounds(setup_, piece, part).cap(overrides_);
+    const auto place = [&](std::size_t of) {
+        return of == parts ? shape.length : from + length * static_cast<double>(of) / static_cast<double>(parts);
+    };
+    IntervalBounds bounds(setup_, piece, part);
+    part.to = from;
+    for (std::size_t number = 0; number < parts; ++number) {
+        part.from = part.to;
+        part.to = place(number + 1);
+        part.top = part.kind == IntervalKind::Rest ? kMost : bounds.cap(overrides_);
         part.cap = std::min(cap, part.top);
-        if (k == 0 && !intervals_.empty()) { part.cap = std::min(part.cap, intervals_.back().top); }
+        if (number == 0 && !intervals_.empty()) { part.cap = std::min(part.cap, intervals_.back().top); }
         intervals_.push_back(part);
         cap = part.top;
         part.jump = 0;
@@ -279,9 +289,12 @@ std::size_t SpeedWindow::known() const {
 /// A reach that differs from the cap only by rounding is set to the cap, because whether a place is final must not
 /// depend on where the pass began.
 void SpeedWindow::update(std::size_t first, std::size_t last) {
-    for (std::size_t k = last + 1; k-- > first;) {
+    double behind = reach_behind(last);
+    IntervalBounds bounds = this->bounds(interval(last));
+    for (std::size_t k = last + 1; k-- > first; behind = interval(k).reach) {
         Interval& part = intervals_[k - first_];
-        const double reach = bounds(part).before(reach_behind(k));
+        bounds.take(piece_of(part), part);
+        const double reach = bounds.before(behind);
         part.reach = reach < (1 - kRounding) * part.cap ? reach : part.cap;
     }
 }
@@ -319,7 +332,8 @@ void SpeedWindow::slow(std::size_t number, double slower) {
 }
 
 void SpeedWindow::drop_before(std::size_t number) {
-    const std::size_t piece = number < end() ? interval(number).piece : first_piece_ + pieces_.size();
+    const std::size_t piece =
+        number < end() ? interval(number).piece : first_piece_ + pieces_.size() - (is_open_ ? 1 : 0);
     intervals_.drop_front(number - first_);
     while (first_piece_ + 1 < piece) {  // may_rise looks back at the piece before
         pieces_.pop_front();

@@ -88,6 +88,10 @@ private:
         Joint begin;
         Joint end;
 
+        /// The rows that move beside a piece.
+        AxisSet moving() const {
+            return (before != nullptr ? before->moving : 0) | (next != nullptr ? next->moving : 0);
+        }
         bool follows() const { return before != nullptr && before->length > 0; }
         bool goes_on() const { return next != nullptr && next->length > 0; }
     };
@@ -95,17 +99,21 @@ private:
 
     /// Where the path begins on the first piece of the window.
     double begin_of(const Quadratic& piece) const { return std::max(begin_u_ - piece.begin, 0.0); }
-    const Quadratic* before() const { return before_ ? &*before_ : nullptr; }
+    /// Where it begins on a piece.
+    double begin_of(const Quadratic& piece, const Neighbours& beside) const {
+        return beside.before == nullptr ? begin_of(piece) : 0;
+    }
     void add_rows(const Quadratic& piece);
-    void close_pending(const Quadratic* next);
+    void close_piece(std::size_t k);
     void close_end();
-    bool is_passed(const Quadratic& piece, const Quadratic* next) const;
+    const Quadratic* shape_at(std::size_t k) const { return k < pieces_.size() ? &pieces_[k].shape : nullptr; }
+    bool is_passed(const Quadratic& piece, const Neighbours& beside) const;
     Joint joint(const Quadratic* before, const Quadratic* after) const;
     FastPassage fast_passage(const JoinedPiece& piece, const Neighbours& beside) const;
     void charge(JoinedPiece& piece, const Neighbours& beside) const;
     void slow_joints(JoinedPiece& piece, const Neighbours& beside) const;
-    bool is_slow_at_ends(const JoinedPiece& piece, const Joint& begin, const Joint& end) const;
-    void cut_piece(const JoinedPiece& piece, const Joint& begin, const Joint& end);
+    bool is_slow_at_ends(const JoinedPiece& piece, const Neighbours& beside) const;
+    void cut_piece(std::size_t k, const Neighbours& beside);
     void look_ahead();
     bool may_rise(std::size_t piece) const;
     void turn_piece(std::size_t number, bool is_under_way);
@@ -116,17 +124,16 @@ private:
     PathSetup setup_;
     Overrides overrides_;
     double begin_u_ = 0;               // where the path begins on the first piece of geometry
-    ReusedQueue<JoinedPiece> pieces_;  // phases refer to them
+    ReusedQueue<JoinedPiece> pieces_;  // phases refer to them; the last one may be open: the next one is not known
     SlidingVector<Interval> intervals_;
     std::size_t first_ = 0;
     std::size_t first_piece_ = 0;
-    std::optional<Quadratic> pending_;  // the last piece; the next one is not known
-    std::optional<Quadratic> before_;   // the piece before that
-    std::optional<Joint> joint_;        // of these two, if it is known
-    ReusedQueue<Quadratic> ahead_;      // recut_behind: the pieces to cut again, the last one first
-    std::size_t final_ = 0;             // all intervals before this one are final
-    std::size_t due_ = kLeastPass;      // a pass runs when this many are not final
-    double end_cap_ = 0;                // w at the end of the path, once it is finished
+    bool is_open_ = false;
+    std::optional<Joint> joint_;    // at the begin of the open piece, if it is known
+    ReusedQueue<Quadratic> ahead_;  // recut_behind: the pieces to cut again, the last one first
+    std::size_t final_ = 0;         // all intervals before this one are final
+    std::size_t due_ = kLeastPass;  // a pass runs when this many are not final
+    double end_cap_ = 0;            // w at the end of the path, once it is finished
     bool is_finished_ = false;
 
     static constexpr std::size_t kLeastPass = 32;

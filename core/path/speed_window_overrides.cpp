@@ -33,7 +33,7 @@ bool SpeedWindow::may_rise(std::size_t piece) const {
     const JoinedPiece& begun = pieces_[k];
     JoinedPiece turned = begun;
     const Quadratic* before = k > 0 ? &pieces_[k - 1].shape : nullptr;
-    const Quadratic* next = k + 1 < pieces_.size() ? &pieces_[k + 1].shape : pending_ ? &*pending_ : nullptr;
+    const Quadratic* next = shape_at(k + 1);
     charge(turned, {before, next, joint(before, &turned.shape), joint(&turned.shape, next)});
     const auto is_paid = [&](std::size_t axis, const JoinedPiece& as) {
         return as.is_charged && as.charged.begin()[axis] != as.shape.bend.begin()[axis];
@@ -59,16 +59,14 @@ void SpeedWindow::turn_piece(std::size_t number, bool is_under_way) {
 
 void SpeedWindow::recut_behind(std::size_t piece) {
     ahead_.clear();
-    if (pending_) { ahead_.push_back(*pending_); }
     while (first_piece_ + pieces_.size() > piece + 1) {
         ahead_.push_back(pieces_.back().shape);
         pieces_.pop_back();
     }
     while (interval(end() - 1).piece > piece) { intervals_.truncate(intervals_.size() - 1); }
     final_ = std::min(final_, end());
-    before_ = pieces_.back().shape;
     joint_.reset();
-    pending_.reset();
+    is_open_ = false;
     for (; !ahead_.empty(); ahead_.pop_back()) { add_rows(ahead_.back()); }
 }
 

@@ -64,12 +64,20 @@ bool ArcCutter::begin(const PathSetup& setup, const ArcShape& arc, const ArcEnds
     all_ = quarters_ + 4 * (arc_.turns - 1);
     sweep_ = all_ * kQuarter + (has_part_ ? part_ : 0);
     bent_ = std::max(radius_begin_, radius_end_) + 3 * std::abs(radius_end_ - radius_begin_) / sweep_;
+    find_moving();
+    return true;
+}
+
+/// Sets which axes move along the arc. The others stay where they are.
+void ArcCutter::find_moving() {
     off_ = at_;
+    moving_ = axis_bit(arc_.first) | axis_bit(arc_.second);
     for (std::size_t i = 0; i < off_.size(); ++i) {
         off_[i] -= from_[i];
         is_off_ = is_off_ || off_[i] != 0;
+        if (off_[i] != 0 || to_[i] != from_[i]) { moving_ |= axis_bit(i); }
     }
-    return true;
+    pattern_.slope = pattern_.bend = zeros(at_.size());
 }
 
 void ArcCutter::cut_on(const PathSetup& setup, PathTrail& out) {
@@ -143,34 +151,43 @@ double ArcCutter::tolerance(double before, double share) const {
 
 AxisVector ArcCutter::place(const PathSetup& setup, Direction d, double done) const {
     const double share = done / sweep_;
-    AxisVector at = from_;
-    for (std::size_t i = 0; i < at.size(); ++i) { at[i] += (to_[i] - from_[i]) * share; }
     const double radius = radius_begin_ + (radius_end_ - radius_begin_) * share;
     const double y = arc_.is_clockwise ? -d.y : d.y;
+    AxisVector at = at_;
+    each_of(moving_, [&](std::size_t i) { at[i] = from_[i] + (to_[i] - from_[i]) * share; });
     at[arc_.first] = (arc_.centre_first_mm + radius * d.x) * setup.steps_per_mm[arc_.first];
     at[arc_.second] = (arc_.centre_second_mm + radius * y) * setup.steps_per_mm[arc_.second];
-    for (std::size_t i = 0; i < at.size(); ++i) {
+    each_of(moving_, [&](std::size_t i) {
         if (is_off_) { at[i] += off_[i] * (1 - share); }
         const TravelEnds travel = travel_ends_of(setup.limits_of_axis(i));
         at[i] = std::clamp(at[i], travel.least, travel.greatest);
-    }
+    });
     return at;
+}
+
+/// The distance of two places on the arc.
+double ArcCutter::distance(const PathSetup& setup, const AxisVector& a, const AxisVector& b) const {
+    double square = 0;
+    each_of(moving_, [&](std::size_t i) {
+        const double mm = (b[i] - a[i]) / setup.steps_per_mm[i];
+        square += mm * mm;
+    });
+    return std::sqrt(square);
 }
 
 /// The length is the chord's plus the excess of the arc: 8/3 of the square of its height, divided by the chord.
 void ArcCutter::add_piece(const PathSetup& setup, const AxisVector& middle, const AxisVector& end, PathTrail& out) {
     Quadratic piece = pattern_;
-    const double chord = distance_mm(at_, end, setup.steps_per_mm);
+    const double chord = distance(setup, at_, end);
     AxisVector half_way = at_;
-    for (std::size_t i = 0; i < at_.size(); ++i) { half_way[i] = (at_[i] + end[i]) / 2; }
-    const double height = distance_mm(half_way, middle, setup.steps_per_mm);
+    each_of(moving_, [&](std::size_t i) { half_way[i] = (at_[i] + end[i]) / 2; });
+    const double height = distance(setup, half_way, middle);
     piece.length = chord + 8 * height * height / (3 * chord);
     piece.from = at_;
-    piece.slope = piece.bend = at_;
-    for (std::size_t i = 0; i < at_.size(); ++i) {
+    each_of(moving_, [&](std::size_t i) {
         piece.slope[i] = (end[i] - at_[i]) / piece.length;
         piece.bend[i] = -8 * (middle[i] - half_way[i]) / (piece.length * piece.length);
-    }
+    });
     piece.is_straight = false;
     keep_within_travel(setup, piece);
     at_ = end;

@@ -63,10 +63,12 @@ private:
     static double angle_between(Direction a, Direction b);
     static Direction turned(Direction a, int quarters);
     static int quarters_between(Direction a, Direction b);
+    void find_moving();
     double scale(const PathSetup& setup) const;
     Direction direction(const PathSetup& setup, const AxisVector& at, double& radius_mm) const;
     double tolerance(double before, double share) const;
     AxisVector place(const PathSetup& setup, Direction d, double done) const;
+    double distance(const PathSetup& setup, const AxisVector& a, const AxisVector& b) const;
     void halve(const PathSetup& setup, const Part& part, PathTrail& out);
     void add_piece(const PathSetup& setup, const AxisVector& middle, const AxisVector& end, PathTrail& out);
 
@@ -88,6 +90,7 @@ private:
     double radius_end_ = 0;    // mm
     double sweep_ = 0;         // rad, of the whole arc
     double bent_ = 0;          // mm, for the deviation of its pieces
+    AxisSet moving_ = 0;       // the axes that move
     AxisVector off_;           // the place of the axes at the begin minus the programmed begin
     bool is_off_ = false;
     double along_ = 0;  // mm of the arc before the next piece

@@ -26,14 +26,17 @@ void ChordFit::extend(const SlidingVector<PathPoint>& points, std::size_t count)
         const double u1 = b.along - points[first_].along;
         const double um = (u0 + u1) / 2;
         const double sixth = (u1 - u0) / 6;
-        for (std::size_t i = 0; i < axes; ++i) {
+        const std::size_t last = sums_.size() - 2 * axes;
+        sums_.resize(sums_.size() + 2 * axes);
+        each_of(moving_, [&](std::size_t i) {
             const double z0 = a.at.begin()[i] - from_.begin()[i];
             const double z1 = b.at.begin()[i] - from_.begin()[i];
             const double zm = 2 * (z0 + z1) * um;
-            const std::size_t last = sums_.size() - 2 * axes;
-            sums_.push_back(sums_[last] + sixth * (z0 * u0 + zm + z1 * u1));
-            sums_.push_back(sums_[last + 1] + sixth * (z0 * u0 * u0 + zm * um + z1 * u1 * u1));
-        }
+            const std::size_t before = last + 2 * i;
+            const std::size_t here = before + 2 * axes;
+            sums_[here] = sums_[before] + sixth * (z0 * u0 + zm + z1 * u1);
+            sums_[here + 1] = sums_[before + 1] + sixth * (z0 * u0 * u0 + zm * um + z1 * u1 * u1);
+        });
     }
 }
 
@@ -41,18 +44,19 @@ void ChordFit::bend(std::size_t count, Quadratic& piece) const {
     const std::size_t axes = from_.size();
     const double length = piece.length;
     const double square = length * length;
-    for (std::size_t i = 0; i < axes; ++i) {
+    each_of(moving_, [&](std::size_t i) {
         const double m1 = sums_[2 * (count * axes + i)];
         const double m2 = sums_[2 * (count * axes + i) + 1];
         const double way = piece.slope[i] * length;
         piece.bend[i] = ((m2 - length * m1) / 2 + way * square * length / 24) * 120 / (square * square * length);
-    }
+    });
     piece.is_straight = false;
 }
 
 bool ChordFit::is_close(const SlidingVector<PathPoint>& points, std::size_t count,
                         std::span<const double> tolerance_steps, double share, const Quadratic& piece) const {
-    for (std::size_t i = 0; i < from_.size(); ++i) {
+    for (AxisSet axes = moving_; axes != 0; axes &= axes - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(axes));
         const double most = share * tolerance_steps[i];
         double before = points[first_].at.begin()[i];
         double u0 = 0;
@@ -71,15 +75,13 @@ bool ChordFit::is_close(const SlidingVector<PathPoint>& points, std::size_t coun
 }
 
 bool ChordFit::fit(const SlidingVector<PathPoint>& points, std::size_t count, const AxisVector& to,
-                   std::span<const double> tolerance_steps, Quadratic& piece) {
-    const std::size_t axes = from_.size();
+                   std::span<const double> tolerance_steps, AxisSet moving, Quadratic& piece) {
+    moving_ = moving;
     piece.from = from_;
     piece.length = points[first_ + count].along - points[first_].along;
-    piece.slope = piece.bend = from_;
-    for (std::size_t i = 0; i < axes; ++i) {
-        piece.slope.begin()[i] = (to.begin()[i] - from_.begin()[i]) / piece.length;
-        piece.bend.begin()[i] = 0;
-    }
+    piece.slope = piece.bend = zeros(from_.size());
+    each_of(moving_,
+            [&](std::size_t i) { piece.slope.begin()[i] = (to.begin()[i] - from_.begin()[i]) / piece.length; });
     piece.is_straight = true;
     if (count == 1) { return true; }
     if (is_close(points, count, tolerance_steps, kStraightShare, piece)) { return true; }

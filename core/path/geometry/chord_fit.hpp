@@ -36,9 +36,10 @@ public:
     void begin(std::size_t first, const AxisVector& from);
 
     /// Fits a piece over `count` chords that ends at `to`. Returns false if it deviates from the polyline by more than
-    /// `tolerance_steps` of an axis, at a vertex or the middle of a chord.
+    /// `tolerance_steps` of an axis, at a vertex or the middle of a chord. `moving`: at least the axes that do not have
+    /// the same place at all points.
     bool fit(const SlidingVector<PathPoint>& points, std::size_t count, const AxisVector& to,
-             std::span<const double> tolerance_steps, Quadratic& piece);
+             std::span<const double> tolerance_steps, AxisSet moving, Quadratic& piece);
 
 private:
     void extend(const SlidingVector<PathPoint>& points, std::size_t count);
@@ -49,8 +50,9 @@ private:
 
     std::size_t first_ = 0;
     AxisVector from_;
+    AxisSet moving_ = 0;
     std::size_t summed_ = 0;    // chords in the sums
-    std::vector<double> sums_;  // M1 and M2 of each axis up to each vertex
+    std::vector<double> sums_;  // M1 and M2 of each axis up to each vertex; 0 before an axis moves
 };
 
 }  // namespace lockstep

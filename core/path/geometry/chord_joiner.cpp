@@ -18,6 +18,7 @@ void ChordJoiner::begin(const AxisVector& at) {
     points_.clear();
     points_.push_back({.at = at});
     end_ = start_at_ = at;
+    moving_ = 0;
     start_ = behind_ = ahead_ = scanned_ = needed_ = 0;
     measured_ = found_ = guess_ = 1;
     is_fit_begun_ = false;
@@ -25,16 +26,29 @@ void ChordJoiner::begin(const AxisVector& at) {
 
 void ChordJoiner::add(const AxisVector& to, const MoveSettings& settings, std::uint32_t block, PathTrail& out) {
     end_ = to;
-    const double length = distance_mm(points_.back().at, to, setup_.steps_per_mm);
+    const double length = step_to(points_.back().at, to);
     if (length < kLeast_mm) { return; }
     points_.push_back({.at = to, .along = points_.back().along + length, .settings = settings, .block = block});
     join(false, out);
 }
 
+/// The length of a chord in mm. Notes the axes that move.
+double ChordJoiner::step_to(const AxisVector& from, const AxisVector& to) {
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        if (to.begin()[i] != from.begin()[i]) { moving_ |= axis_bit(i); }
+    }
+    double square = 0;
+    each_of(moving_, [&](std::size_t i) {
+        const double mm = (to.begin()[i] - from.begin()[i]) / setup_.steps_per_mm[i];
+        square += mm * mm;
+    });
+    return std::sqrt(square);
+}
+
 void ChordJoiner::finish(const AxisVector& end, PathTrail& out) {
     const std::size_t last = points_.size() - 1;
     if (last > start_) {
-        const double length = distance_mm(points_[last - 1].at, end, setup_.steps_per_mm);
+        const double length = step_to(points_[last - 1].at, end);
         if (length >= kLeast_mm) {
             points_[last].at = end;
             points_[last].along = points_[last - 1].along + length;
@@ -94,13 +108,13 @@ double ChordJoiner::turn_at(std::size_t k) const {
     double dot = 0;
     double square0 = 0;
     double square1 = 0;
-    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+    each_of(moving_, [&](std::size_t i) {
         const double d0 = (b.begin()[i] - a.begin()[i]) / setup_.steps_per_mm[i];
         const double d1 = (c.begin()[i] - b.begin()[i]) / setup_.steps_per_mm[i];
         dot += d0 * d1;
         square0 += d0 * d0;
         square1 += d1 * d1;
-    }
+    });
     const double product = square0 * square1;
     return product > 0 ? 1 - dot / std::sqrt(product) : 2;
 }
@@ -143,7 +157,7 @@ ChordJoiner::Reach ChordJoiner::reach(bool is_end) {
 bool ChordJoiner::try_chords(std::size_t chords, Quadratic& best) {
     const AxisVector end = end_at(start_ + chords);
     Quadratic piece;
-    if (!fit_.fit(points_, chords, end, tolerance_steps_, piece)) { return false; }
+    if (!fit_.fit(points_, chords, end, tolerance_steps_, moving_, piece)) { return false; }
     if (chords > 1 && !is_within_travel(piece)) { return false; }
     best = piece;
     best_end_ = end;
@@ -152,7 +166,8 @@ bool ChordJoiner::try_chords(std::size_t chords, Quadratic& best) {
 
 /// A piece with a wide tolerance could lead out of the travel.
 bool ChordJoiner::is_within_travel(const Quadratic& piece) const {
-    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+    for (AxisSet axes = moving_; axes != 0; axes &= axes - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(axes));
         const double turn = piece.bend[i] == 0 ? 0 : piece.length / 2 - piece.slope[i] / piece.bend[i];
         const TravelEnds travel = travel_ends_of(setup_.limits_of_axis(i));
         for (const double u : {std::clamp(turn, 0.0, piece.length), piece.length}) {
@@ -204,15 +219,17 @@ AxisVector ChordJoiner::end_at(std::size_t k) const {
     const double after = next.along - point.along;
     const double shift = kShift * std::min(before, after);
     double* const to = at.begin();
-    for (std::size_t i = 0; i < at.size(); ++i) {
+    each_of(moving_, [&](std::size_t i) {
         const double turn = (next.at.begin()[i] - to[i]) / after - (to[i] - last.at.begin()[i]) / before;
         const double most = kMostShift * tolerance_steps_[i];
         to[i] += std::clamp(shift * turn, -most, most);
-    }
+    });
     return at;
 }
 
 void ChordJoiner::set_tolerance(const MoveSettings& settings) {
+    if (settings.tolerance_mm == tolerance_mm_) { return; }
+    tolerance_mm_ = settings.tolerance_mm;
     tolerance_steps_.clear();
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
         const double step = setup_.step_of_motors(i);

@@ -58,6 +58,7 @@ private:
     bool try_chords(std::size_t chords, Quadratic& best);
     bool is_within_travel(const Quadratic& piece) const;
     AxisVector end_at(std::size_t k) const;
+    double step_to(const AxisVector& from, const AxisVector& to);
     void set_tolerance(const MoveSettings& settings);
     void drop_passed();
 
@@ -65,6 +66,8 @@ private:
     SlidingVector<PathPoint> points_;
     ChordFit fit_;
     AxisVector end_;
+    AxisSet moving_ = 0;                   // the axes that do not have the same place at all points
+    double tolerance_mm_ = -1;             // of tolerance_steps_
     std::vector<double> tolerance_steps_;  // of the next piece
     std::size_t start_ = 0;                // the vertex at which the next piece begins
     AxisVector start_at_;                  // and its place

@@ -28,11 +28,20 @@ struct Quadratic {
     Ticks rest;             // duration if length is 0
     std::size_t piece = 0;  // the number of the piece of geometry in its stream
     double begin = 0;       // mm: rows may have several pieces for one piece of geometry, and this is where one begins
+    AxisSet moving = 0;     // those with a slope or a bend, as moving_rows() has found them
 
     double place(std::size_t i, double u) const {
         return from.begin()[i] + (slope.begin()[i] + bend.begin()[i] * (u - length) / 2) * u;
     }
     double slope_at(std::size_t i, double u) const { return slope.begin()[i] + bend.begin()[i] * (u - length / 2); }
 };
+
+inline AxisSet moving_rows(const Quadratic& piece) {
+    AxisSet moving = 0;
+    for (std::size_t i = 0; i < piece.slope.size(); ++i) {
+        if (piece.slope.begin()[i] != 0 || piece.bend.begin()[i] != 0) { moving |= axis_bit(i); }
+    }
+    return moving;
+}
 
 }  // namespace lockstep

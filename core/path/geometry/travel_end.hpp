@@ -29,6 +29,7 @@ inline void keep_within_travel(const PathSetup& setup, Quadratic& piece) {
         return 2 * root * root;
     };
     for (std::size_t i = 0; i < setup.axes(); ++i) {
+        if (piece.bend[i] == 0) { continue; }
         const TravelEnds travel = travel_ends_of(setup.limits_of_axis(i));
         const double begin = piece.from[i];
         const double end = piece.place(i, piece.length);

@@ -28,30 +28,33 @@ void PathLoad::note_place(std::size_t axis, double place) {
 
 /// Notes the place where each axis turns back, if it does, and the end.
 void PathLoad::note_piece(const Quadratic& shape) {
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
+    each_of(shape.moving & all_axes(axes_.size()), [&](std::size_t i) {
         const double bend = shape.bend.begin()[i];
         const double slope = shape.slope.begin()[i];
-        if (bend == 0 && slope == 0) { continue; }
         if (std::abs(bend) * shape.length > 2 * std::abs(slope)) {
             note_place(i, shape.place(i, shape.length / 2 - slope / bend));
         }
         note_place(i, shape.place(i, shape.length));
-    }
+    });
 }
 
-/// Notes the jumps where the next piece begins. Null: the machine rests there.
-void PathLoad::note_joint(const Quadratic* next, double v) {
-    const bool is_rest = next == nullptr || next->length == 0;
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-        const double slope = is_rest ? 0 : next->slope_at(i, 0);
-        raise(axes_[i].peak_jump, std::abs(slope - slopes_[i]) * v);
-        slopes_[i] = is_rest ? 0 : next->slope_at(i, next->length);
-    }
+/// Notes the jumps where the next piece begins.
+void PathLoad::note_joint(const JoinedPiece& next, double v) {
+    const Quadratic& shape = next.shape;
+    const bool is_rest = shape.length == 0;
+    each_of(next.rows & all_axes(axes_.size()), [&](std::size_t i) {
+        note_jump(i, is_rest ? 0 : shape.slope_at(i, 0), v);
+        slopes_[i] = is_rest ? 0 : shape.slope_at(i, shape.length);
+    });
+}
+
+void PathLoad::note_jump(std::size_t axis, double slope, double v) {
+    raise(axes_[axis].peak_jump, std::abs(slope - slopes_[axis]) * v);
 }
 
 void PathLoad::pass(const PassedInterval& passed, bool is_first) {
     if (is_first) {
-        note_joint(&passed.piece.shape, passed.v0);
+        note_joint(passed.piece, passed.v0);
         note_piece(passed.piece.shape);
     }
     if (passed.part.kind == IntervalKind::Straight) { note_straight(passed); }
@@ -61,11 +64,11 @@ void PathLoad::pass(const PassedInterval& passed, bool is_first) {
 void PathLoad::note_straight(const PassedInterval& passed) {
     const double up = passed.top > passed.v0 ? passed.part.acceleration : 0;
     const double change = passed.top > passed.v1 ? std::max(up, passed.part.deceleration) : up;
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
+    each_of(passed.piece.shape.moving & all_axes(axes_.size()), [&](std::size_t i) {
         const double slope = std::abs(passed.piece.shape.slope.begin()[i]);
         raise(axes_[i].peak_velocity, slope * passed.top);
         raise(axes_[i].peak_acceleration, slope * change);
-    }
+    });
 }
 
 /// The accelerations at both ends of the interval, and at its middle with the bend that the joints charge
@@ -76,7 +79,7 @@ void PathLoad::note_curved(const PassedInterval& passed) {
     const double middle = (passed.part.from + passed.part.to) / 2;
     const double w0 = passed.v0 * passed.v0;
     const double w1 = passed.v1 * passed.v1;
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
+    each_of(passed.piece.rows & all_axes(axes_.size()), [&](std::size_t i) {
         const double slope = passed.piece.shape.slope_at(i, middle);
         const double bend = passed.piece.shape.bend.begin()[i] * d;
         const double begin = std::abs(slope - bend / 2) * passed.v0;
@@ -89,9 +92,11 @@ void PathLoad::note_curved(const PassedInterval& passed) {
             raise(change, std::abs(w1 * (slope + charged) - w0 * (slope - charged)));
         }
         raise(axes_[i].peak_acceleration, change / (2 * d));
-    }
+    });
 }
 
-void PathLoad::end(double v) { note_joint(nullptr, v); }
+void PathLoad::end(double v) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) { note_jump(i, 0, v); }
+}
 
 }  // namespace lockstep

@@ -48,7 +48,8 @@ public:
 private:
     void note_place(std::size_t axis, double place);
     void note_piece(const Quadratic& shape);
-    void note_joint(const Quadratic* next, double v);
+    void note_joint(const JoinedPiece& next, double v);
+    void note_jump(std::size_t axis, double slope, double v);
     void note_straight(const PassedInterval& passed);
     void note_curved(const PassedInterval& passed);
 

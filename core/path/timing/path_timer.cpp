@@ -59,9 +59,11 @@ void PathTimer::pass_known() {
         v_ = std::sqrt(w_);
         has_begun_ = true;
     }
+    IntervalBounds bounds = window_.bounds(window_.interval(next_));
     for (; next_ < known; ++next_) {
         const Interval& part = window_.interval(next_);
-        pass(part, std::min(window_.reach_behind(next_), window_.bounds(part).after(w_)));
+        bounds.take(window_.piece_of(part), part);
+        pass(part, std::min(window_.reach_behind(next_), bounds.after(w_)));
     }
     window_.drop_before(next_);
 }
