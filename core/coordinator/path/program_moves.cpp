@@ -14,7 +14,8 @@ void ProgramMoves::begin(const std::shared_ptr<const ProgramBlocks>& program, st
     next_ = first;
     has_moved_ = is_starved_ = false;
     end_ = {};
-    to_ = from;
+    from_ = from;
+    rest_.reset();
     at_.clear();
     for (const std::int64_t count : from) { at_.append(static_cast<double>(count)); }
 }
@@ -61,6 +62,13 @@ ProgramMoves::Read ProgramMoves::finish(PathInput& path) {
     return {.ends = true};
 }
 
+AxisCounts ProgramMoves::rest() const {
+    if (!rest_) { return from_; }
+    AxisCounts to = from_;
+    for (const std::size_t axis : axes_) { to[axis] = std::llround((*rest_)[axis]); }
+    return within_travel(to, limits_);
+}
+
 /// Sets the way of each axis, and returns the length in mm.
 double ProgramMoves::measure(const ProgramMove& move) {
     from_mm_.clear();
@@ -80,8 +88,7 @@ void ProgramMoves::pass(const ProgramMove& move, std::uint32_t number, PathInput
     if (pace_.is_pending() && OutputPace::is_left_out(length) && move.mode == PathMode::ExactStop) {
         return path.rest(pace_.next_rest(), number);
     }
-    for (const std::size_t axis : axes_) { to_[axis] = std::llround(at_[axis]); }
-    to_ = within_travel(to_, limits_);
+    rest_ = at_;
     const MoveSettings settings{.feed_mm_per_tick = move.feed_for(tick_s_),
                                 .mode = move.mode,
                                 .tolerance_mm = move.tolerance_mm,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,10 +39,11 @@ public:
     /// The next block was not at hand.
     bool is_starved() const { return is_starved_; }
     /// Where the leg ended.
-    LegEnd end() const { return {end_.kind, next_, to_, end_.pause, end_.probe}; }
+    LegEnd end() const { return {end_.kind, next_, rest(), end_.pause, end_.probe}; }
 
 private:
     bool begin_at_place(PathInput& path);
+    AxisCounts rest() const;
     double measure(const ProgramMove& move);
     void pass(const ProgramMove& move, std::uint32_t number, PathInput& path);
     Read finish(PathInput& path);
@@ -57,9 +59,10 @@ private:
     std::uint32_t next_ = 0;
     bool has_moved_ = false;  // a move of the leg was read
     bool is_starved_ = false;
-    LegEnd end_;     // how the leg ends
-    AxisCounts to_;  // where the path ends so far, on whole steps
-    AxisVector at_;  // where the last block read leads to
+    LegEnd end_;  // how the leg ends
+    AxisCounts from_;
+    AxisVector at_;                   // where the last block read leads to
+    std::optional<AxisVector> rest_;  // where the path ends so far; it rests on whole steps
 };
 
 }  // namespace lockstep

@@ -32,6 +32,13 @@ PlanError too_far(const AxisConfig& axis, double mm, std::optional<std::int32_t>
             axis.name + " " + number(mm) + " " + std::string(unit_of(axis.name)) + " is too far from 0"};
 }
 
+/// std::llround for less than 2^52, without a call of a function.
+std::int64_t whole_steps(double steps) {
+    const auto whole = static_cast<std::int64_t>(steps);
+    const double rest = steps - static_cast<double>(whole);
+    return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
+}
+
 void end(Leg& leg, std::uint32_t before, const AxisCounts& at) {
     leg.end = before;
     leg.to = at;
@@ -80,11 +87,14 @@ std::expected<AxisCounts, PlanError> ProgramPlanner::target(const ProgramMove& m
                                                             std::optional<std::int32_t> line) const {
     AxisCounts to = from;
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        const AxisConfig& axis = machine_.axes[axes[i]];
+        const std::size_t axis = axes[i];
         const double mm = move.target_mm[i];
-        if (!(std::abs(mm * axis.steps_per_mm) < kMaxSteps)) { return std::unexpected(too_far(axis, mm, line)); }
-        to[axes[i]] = to_steps(axis, mm);
-        if (!is_within_travel(axes[i], to[axes[i]])) { return std::unexpected(outside_travel(axis, mm, line)); }
+        const double steps = mm * steps_per_mm_[axis];
+        if (!(std::abs(steps) < kMaxSteps)) { return std::unexpected(too_far(machine_.axes[axis], mm, line)); }
+        to[axis] = whole_steps(steps);
+        if (!is_within_travel(axis, to[axis])) {
+            return std::unexpected(outside_travel(machine_.axes[axis], mm, line));
+        }
     }
     return within_travel(to, limits_);
 }
