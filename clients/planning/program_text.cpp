@@ -51,7 +51,8 @@ void ProgramText::touched(const ProbeTouch& touch) {
 }
 
 void ProgramText::take_blocks() const {
-    for (Block& block : gcode_.take_blocks()) {
+    gcode_.take_blocks(taken_);
+    for (Block& block : taken_) {
         if (errors_.empty()) { blocks_.push_back(std::move(block)); }
     }
     std::ranges::move(gcode_.take_notes(), std::back_inserter(notes_));

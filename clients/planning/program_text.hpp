@@ -53,6 +53,7 @@ private:
     mutable LineReader lines_;
     mutable GcodeStream gcode_;
     ProgramHead head_;
+    mutable std::vector<Block> taken_;   // of the last line
     mutable std::deque<Block> blocks_;   // from the last requested block on
     mutable std::uint32_t first_ = 0;    // number of the first of blocks_
     mutable std::vector<double> at_mm_;  // the place before blocks_

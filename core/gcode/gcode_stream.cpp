@@ -61,6 +61,8 @@ bool GcodeStream::is_ended() const { return parts_->interpreter.ended(); }
 
 std::vector<Block> GcodeStream::take_blocks() { return parts_->builder.take_blocks(); }
 
+void GcodeStream::take_blocks(std::vector<Block>& blocks) { parts_->builder.take_blocks(blocks); }
+
 std::vector<GcodeNote> GcodeStream::take_notes() { return parts_->builder.take_notes(); }
 
 gcode::KeptValues GcodeStream::values() const {

@@ -34,6 +34,8 @@ public:
 
     /// The blocks of the lines since the last call.
     std::vector<Block> take_blocks();
+    /// Moves them to `blocks`, whose memory is used for the next ones.
+    void take_blocks(std::vector<Block>& blocks);
     /// Skipped words, and messages, since the last call.
     std::vector<GcodeNote> take_notes();
     /// The values and modes after the lines taken so far.

@@ -203,7 +203,8 @@ void ProgramBuilder::arc(const Arc& arc) {
 }
 
 void ProgramBuilder::move(const Point& target, double feed, bool rapid) {
-    std::vector<double> to = position_;
+    std::vector<double>& to = next_position_;
+    to = position_;
     for (std::size_t i = 0; i < to.size(); ++i) {
         if (places_[i] && target[*places_[i]] != at_[*places_[i]]) { to[i] = within_travel(i, target[*places_[i]]); }
     }
@@ -213,7 +214,7 @@ void ProgramBuilder::move(const Point& target, double feed, bool rapid) {
     if (rapid) { move.feed_mm_s = 0; }
     move.rapid = rapid;
     append(std::move(move));
-    position_ = std::move(to);
+    position_.swap(to);
 }
 
 /// Makes a move with the present modes. `feed` is per minute.
@@ -236,11 +237,12 @@ double ProgramBuilder::feed_along_path(const ProgramMove& move) const {
     double linear = move.arc ? ArcPath(*move.arc, position_, target).plane_length_mm() : 0;
     double rotary = 0;
     for (std::size_t i = 0; i < target.size(); ++i) {
+        if (target[i] == position_[i]) { continue; }
         if (move.arc && (i == move.arc->first || i == move.arc->second)) { continue; }
         double& length = is_rotary(setup_.axes[i].name) ? rotary : linear;
         length = std::hypot(length, target[i] - position_[i]);
     }
-    const double share = linear <= kTravelTolerance_mm ? 1 : std::hypot(linear, rotary) / linear;
+    const double share = linear <= kTravelTolerance_mm || rotary == 0 ? 1 : std::hypot(linear, rotary) / linear;
     return std::min(move.feed_mm_s * share, kMaxFeed_mm_s);
 }
 

@@ -56,6 +56,11 @@ public:
     ProgramHead head() const { return program_.head(); }
     /// The blocks and notes since the last call.
     std::vector<lockstep::Block> take_blocks() { return std::exchange(program_.blocks, {}); }
+    /// Moves them to `blocks`, whose memory is used for the next ones.
+    void take_blocks(std::vector<lockstep::Block>& blocks) {
+        blocks.clear();
+        blocks.swap(program_.blocks);
+    }
     std::vector<GcodeNote> take_notes() { return std::exchange(notes_, {}); }
 
     /// The last message since the last pause.
@@ -102,7 +107,8 @@ private:
     std::vector<GcodeNote> notes_;
     std::set<std::string> noted_;
     std::vector<double> position_;
-    std::vector<double> probed_from_;  // where the last probing move began
+    std::vector<double> next_position_;  // move: keeps its memory
+    std::vector<double> probed_from_;    // where the last probing move began
     Point at_{};
     std::vector<GcodeError> errors_;
     bool is_full_ = false;

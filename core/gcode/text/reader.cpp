@@ -1,7 +1,10 @@
 #include "core/gcode/text/reader.hpp"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "core/number_text.hpp"
@@ -12,6 +15,31 @@ namespace {
 constexpr int kInputResult = 5399;
 
 constexpr char small(char c) { return is_letter(c) ? static_cast<char>(c - 'A' + 'a') : c; }
+
+constexpr int kExactDigits = 15;  // of a whole number that a double holds exactly
+constexpr std::array kPowers{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+
+/// Reads digits with at most one point, if they are few: the quotient of two exact numbers is the nearest double, as
+/// from_chars gives it. Returns the number of characters, or 0 if they are too many or no number.
+std::size_t read_short_number(std::string_view text, double& result) {
+    std::int64_t digits = 0;
+    int count = 0;
+    int decimals = -1;  // -1: before the point
+    std::size_t at = 0;
+    for (; at < text.size() && is_of_number(text[at]); ++at) {
+        if (text[at] == '.') {
+            if (decimals >= 0) { return 0; }
+            decimals = 0;
+            continue;
+        }
+        digits = 10 * digits + (text[at] - '0');
+        decimals += decimals >= 0 ? 1 : 0;
+        if (++count > kExactDigits) { return 0; }
+    }
+    if (count == 0) { return 0; }
+    result = static_cast<double>(digits) / kPowers[static_cast<std::size_t>(std::max(decimals, 0))];
+    return at;
+}
 
 bool is_parameter(double number) {
     const double whole = std::round(number);
@@ -73,6 +101,10 @@ double Reader::number() {
     const std::string_view text = line_.text();
     const std::size_t begin = at_;
     double result = 0;
+    if (const std::size_t read = read_short_number(text.substr(begin), result); read > 0) {
+        at_ += read;
+        return result;
+    }
     const auto [end, error] =
         std::from_chars(text.data() + begin, text.data() + text.size(), result, std::chars_format::fixed);
     at_ = static_cast<std::size_t>(end - text.data());
