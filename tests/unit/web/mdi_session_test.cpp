@@ -126,5 +126,17 @@ TEST(MdiProbe, TheNextLineKnowsWhereTheProbeTouchedAndWhereTheAxesRest) {
     EXPECT_TRUE(sender.has_unsent()) << "it moves back to the touch";
 }
 
+TEST(MdiProbe, AResultOfAnotherMachineIsNotTaken) {
+    MachineConfig machine = two_axes();
+    machine.inputs = {{.name = "plate", .motor = machine.axes[0].name, .use = InputUse::Probe, .number = 0}};
+    Snapshot snapshot = snapshot_at_rest();
+    MdiSession mdi(machine);
+    ASSERT_TRUE(mdi.read("G91 G38.2 X4 F60", real_start(snapshot, machine).value()));
+    mdi.answer(true, 7);
+    snapshot.machine->value.probe = ProbeResult{.job = 7, .touched = true, .tick = {}, .places_mm = {}};
+    mdi.see(snapshot);
+    EXPECT_TRUE(mdi.read("G0 X1", real_start(snapshot, machine).value())) << "the session begins again";
+}
+
 }  // namespace
 }  // namespace lockstep::web
