@@ -48,6 +48,7 @@ AxisCheck::AxisCheck(std::string name, Findings& findings, Commanded commanded, 
 
 void AxisCheck::set_machine(const MachineConfig& machine) {
     clocks_.set_machine(machine);
+    positions_.set_machine(machine);
     slot_ = machine.slot_ticks();
 }
 

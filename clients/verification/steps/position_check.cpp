@@ -6,10 +6,14 @@
 
 namespace lockstep::verification {
 
-/// An axis that homes by touch assumes other places before its moves.
+void PositionCheck::set_machine(const MachineConfig& machine) {
+    assumes_places_ =
+        std::ranges::any_of(machine.axes, [](const AxisConfig& axis) { return !axis.homing.input.empty(); });
+}
+
 void PositionCheck::take(const SeenPosition& position) {
-    const bool is_other = last_ && position.incarnation != last_->incarnation;
-    const bool has_new_zero = is_other || !position.is_homed || (last_ && !last_->is_homed);
+    const bool is_other = last_ && (position.incarnation != last_->incarnation || position.is_homed != last_->is_homed);
+    const bool has_new_zero = is_other || (assumes_places_ && !position.is_homed);
     if (last_ && position.tick < last_->tick) { return wait(position); }
     if (has_new_zero) { zero_since_ = position.tick; }
     last_ = position;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "core/machine.hpp"
 #include "core/units.hpp"
 #include "services/record/reading/step_stream.hpp"
 
@@ -27,6 +28,8 @@ public:
     /// The maximum number of positions that wait for the steps around them; more are not compared.
     static constexpr std::size_t kMaxWaiting = 4096;
 
+    /// If axes home by touch, motors that are not homed assume places before moves: only homed ones are compared.
+    void set_machine(const MachineConfig& machine);
     void take(const SeenPosition& position);
     /// Steps in order. Returns why a position that waited is wrong; nullopt if all are right. `slot`: how far apart a
     /// position and its time may be.
@@ -68,6 +71,7 @@ private:
     std::optional<std::string> compare(const SeenPosition& position, Ticks reach) const;
     static std::string text(const SeenPosition& position, const Range& allowed);
 
+    bool assumes_places_ = false;
     std::deque<SeenPosition> waiting_;  // by time
     std::optional<Tick> compared_;      // the time of the newest one compared
     std::deque<Recent> recent_;

@@ -112,7 +112,7 @@ std::string peers_of(std::uint32_t number) {
     RecordedText text;
     Tick now{5000 + (number % 2 == 0 ? 4000 + below(random, 2000) : 0)};
     Slot slot = 1000;
-    const Identity other = 99 + below(random, 2) * 2;
+    const auto other = static_cast<Identity>(99 + below(random, 2) * 2);
     for (int k = 0; k < 200; ++k) {
         now += Ticks{below(random, 100)};
         slot += below(random, 3);
