@@ -1,4 +1,4 @@
-// What a client waits for at a machine: states, replies to commands, programs that are taken, values on the disk.
+// Functions that wait for something from a machine: its states, a reply to a command, values that are on its disk.
 #pragma once
 
 #include <chrono>

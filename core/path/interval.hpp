@@ -50,8 +50,8 @@ struct Interval {
     double length() const { return to - from; }
 };
 
-/// The bounds of one interval on the squares of speed at its ends. What all intervals of a piece have in common is
-/// collected once if they follow each other.
+/// The bounds that one interval sets to the squares of speed at its ends. The data of a piece are collected once for
+/// all intervals of it that follow each other.
 class IntervalBounds {
 public:
     IntervalBounds(const PathSetup& setup, const JoinedPiece& piece, const Interval& interval) : setup_(setup) {

@@ -1,5 +1,5 @@
-// What the parts of a connection share: the machine as the sender sees it, the connection's modes, and what goes to the
-// sender and to the machine.
+// What all parts of one connection use: the machine as the sender sees it, the connection's modes, and the lines to the
+// sender and requests to the machine.
 #pragma once
 
 #include <string>

@@ -114,18 +114,33 @@ void add_motors(const MachineConfig& machine, const std::vector<RegisterWindow>&
     }
 }
 
-}  // namespace
-
-proto::BoardReport check_board(const MachineConfig& machine, const BoardLinkConfig& board) {
+/// `use`: adds to the report what a board that answers shows.
+template <typename Use>
+proto::BoardReport report_of_answer(const MachineConfig& machine, const BoardLinkConfig& board, Use use) {
     proto::BoardReport report = board_report(machine, board);
     BoardLook look(machine, board);
     report.set_is_held(look.is_held());
     if (const auto lack = look.await(BoardLook::kPatience)) {
         report.set_lack(*lack);
     } else {
-        add_motors(machine, look.motors(), report);
+        use(look, report);
     }
     return report;
+}
+
+}  // namespace
+
+proto::BoardReport check_board(const MachineConfig& machine, const BoardLinkConfig& board) {
+    return report_of_answer(machine, board, [&](const BoardLook& look, proto::BoardReport& report) {
+        add_motors(machine, look.motors(), report);
+    });
+}
+
+proto::BoardReport measure_board(const MachineConfig& machine, const BoardLinkConfig& board,
+                                 std::chrono::duration<double> time) {
+    return report_of_answer(machine, board, [&](BoardLook& look, proto::BoardReport& report) {
+        *report.mutable_figures() = look.measure(time);
+    });
 }
 
 std::string why_not_opened(const BoardLinkConfig& board) {

@@ -1,6 +1,7 @@
 // What is known of a machine's boards behind links, and whether they suit its motors.
 #pragma once
 
+#include <chrono>
 #include <expected>
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ proto::BoardReport board_report(const MachineConfig& machine, const BoardLinkCon
 /// Waits until the board answers, for two seconds at most. Adds its devices, and those that a motor of the machine
 /// needs and the board lacks.
 proto::BoardReport check_board(const MachineConfig& machine, const BoardLinkConfig& board);
+/// Waits likewise, and then watches the board's answers for so long.
+proto::BoardReport measure_board(const MachineConfig& machine, const BoardLinkConfig& board,
+                                 std::chrono::duration<double> time);
 
 /// Why this user cannot open the board's line; empty if it can, and for TCP.
 std::string why_not_opened(const BoardLinkConfig& board);

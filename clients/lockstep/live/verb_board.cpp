@@ -9,7 +9,6 @@
 #include <memory>
 
 #include "clients/lockstep/live/board_flash.hpp"
-#include "clients/lockstep/live/board_look.hpp"
 #include "clients/lockstep/live/boards_report.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
@@ -59,16 +58,9 @@ ExitCode list(const BoardOptions& options) {
 ExitCode check(const BoardOptions& options) { return report_boards(options, check_board); }
 
 ExitCode bench(const BoardOptions& options) {
-    return report_boards(options, [&](const MachineConfig& machine, const BoardLinkConfig& board) {
-        proto::BoardReport report = board_report(machine, board);
-        BoardLook look(machine, board);
-        report.set_is_held(look.is_held());
-        if (const auto lack = look.await(BoardLook::kPatience)) {
-            report.set_lack(*lack);
-        } else {
-            *report.mutable_figures() = look.measure(std::chrono::duration<double>{options.seconds});
-        }
-        return report;
+    const std::chrono::duration<double> time{options.seconds};
+    return report_boards(options, [time](const MachineConfig& machine, const BoardLinkConfig& board) {
+        return measure_board(machine, board, time);
     });
 }
 

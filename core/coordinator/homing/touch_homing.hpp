@@ -32,7 +32,7 @@ public:
         End,     // the axis is truly at place()
         Fail,    // by fault()
     };
-    /// What to do next, while nothing moves and all orders are done.
+    /// Returns what to do next. Call it only while nothing moves and no order is open.
     Next next(const LoopView& loop);
     /// The axis's place in whole steps.
     std::int64_t place() const { return place_; }

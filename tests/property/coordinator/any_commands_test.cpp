@@ -103,7 +103,7 @@ private:
         return program;
     }
 
-    /// What a client asks in this phase, or anything.
+    /// A command that is useful in this phase, or sometimes any command.
     CommandKind draw_kind() {
         using enum CommandKind;
         if (owner().phase() == MachinePhase::Fault && !one_of(3)) { return Reset; }

@@ -26,7 +26,7 @@ constexpr double kDirectionToStep = 75;  // 600 ns
 
 constexpr int kLeastStep = 16;  // in ticks, from one step to the next
 
-/// What the pins of a motor must keep, in ticks.
+/// The times that a motor's pins must keep, in ticks.
 struct PinTimes {
     int pulse = 1;
     int delay = kLeastStep;  // from its tick to the pulse
