@@ -1,16 +1,13 @@
 #include "core/coordinator/jobs/job_advance.hpp"
 
-#include <bit>
 #include <utility>
 
-#include "core/check.hpp"
+#include "core/coordinator/jobs/homing_job.hpp"
 #include "core/coordinator/jobs/job_commands.hpp"
 #include "core/coordinator/jobs/job_events.hpp"
 
 namespace lockstep {
 namespace {
-
-std::size_t first_of(AxisSet set) { return static_cast<std::size_t>(std::countr_zero(set)); }
 
 /// An epoch came to rest by itself or by a client's hold or stop.
 void settle_interrupted(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, CoordinatorLoop& loop) {
@@ -63,14 +60,6 @@ void settle(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, Coo
     }
 }
 
-/// A move of axes that home by touch is over. `probed`: it ended at a touch.
-void go_on_homing(activity::Homing& homing, const PathTask& task, bool probed, JobLifecycle& jobs,
-                  CoordinatorLoop& loop) {
-    if (probed) { loop.out.jobs.push_back(job_events::probed(task, jobs.path())); }
-    loop.out.jobs.push_back(job_events::ended(task.job, JobOutcome::Done));
-    if (homing.touch) { homing.touch->moved(probed ? jobs.path().probe() : std::nullopt, loop); }
-}
-
 /// If the move ends otherwise than at its end or a touch, homing ends with it, unless it begins again.
 void settle_homing_move(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, CoordinatorLoop& loop) {
     activity::Homing homing = *std::move(path.homing);
@@ -111,130 +100,6 @@ void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& l
     jobs.fail({FaultCode::NotAtRest, loop.axes.moving(loop.slot).value_or(0)}, loop);
     jobs.fail_at_rest(path.fault, loop);
     if (homing) { loop.out.jobs.push_back(job_events::ended(homing->job, JobOutcome::Failed)); }
-}
-
-bool is_of_homing(AxisCommandKind kind) {
-    return kind == AxisCommandKind::Home || kind == AxisCommandKind::Approach || kind == AxisCommandKind::Assume ||
-           kind == AxisCommandKind::TakePlace;
-}
-
-/// Where axes are assumed to be when homing by touch begins: those without a switch at their parks, the others in the
-/// middle of their travels.
-AxisCounts first_places(AxisSet motors, const LoopView& loop) {
-    AxisCounts places = loop.counts();
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const AxisConfig& axis = loop.machine.axes[i];
-        if ((loop.kinematics.motors_of_axes(axis_bit(i)) & motors) == 0) { continue; }
-        const double middle_mm = (axis.position_min_mm + axis.position_max_mm) / 2;
-        places[i] = to_steps(axis, axis.homing.in_place ? axis.homing.park_mm : middle_mm);
-    }
-    return places;
-}
-
-/// Every motor takes part in each frame, so all that are not homed assume places.
-void assume_places(const activity::Homing& homing, CoordinatorLoop& loop) {
-    AxisSet motors = motors_homed_by_touch(homing.sequence.axes(), loop);
-    for (std::size_t m = 0; m < loop.axes.size(); ++m) {
-        if (loop.axes.state(m) && !loop.axes.state(m)->homed) { motors |= axis_bit(m); }
-    }
-    const MotorCounts places = loop.kinematics.motors_at(first_places(motors, loop));
-    for (std::size_t m = 0; m < loop.axes.size(); ++m) {
-        if (has_axis(motors, m)) { loop.order(m, AxisCommandKind::Assume).target_steps = places[m]; }
-    }
-}
-
-/// Moves the assumed place of one axis. Each motor rests on a whole step, and keeps by how much it differs from the
-/// place of the other axes.
-void assume_place(std::size_t axis, std::int64_t place, CoordinatorLoop& loop) {
-    const AxisCounts here = loop.counts();
-    const AxisSet motors = loop.kinematics.motors_of_axes(axis_bit(axis));
-    for (std::size_t m = 0; m < loop.axes.size(); ++m) {
-        if (!has_axis(motors, m)) { continue; }
-        const std::int64_t shift =
-            loop.kinematics.motor_at(m, here, axis, place) - loop.kinematics.motor_at(m, here, axis, here[axis]);
-        const std::int64_t count = loop.axes.state(m)->position.count();
-        loop.order(m, AxisCommandKind::Assume).target_steps = count + shift;
-    }
-}
-
-/// The axes are truly where their motors assume to be.
-void take_places(const activity::Homing& homing, CoordinatorLoop& loop) {
-    const AxisSet motors = motors_homed_by_touch(homing.sequence.axes(), loop);
-    for (std::size_t m = 0; m < loop.axes.size(); ++m) {
-        if (!has_axis(motors, m)) { continue; }
-        const std::int64_t count = loop.axes.state(m)->position.count();
-        loop.order(m, AxisCommandKind::TakePlace).target_steps = count;
-    }
-}
-
-/// An axis that has homed parks to the nearest step. Its motors rest on whole steps, so this makes the parks of all
-/// axes exact.
-Program way_to_parks(const activity::Homing& homing, const LoopView& loop) {
-    const AxisSet motors = motors_homed_by_touch(homing.sequence.axes(), loop);
-    const AxisCounts here = loop.counts();
-    Program way{.name = "park", .axes = {}, .start_mm = {}, .blocks = {}};
-    ProgramMove move{.target_mm = {}, .rapid = true, .arc = {}, .mode = PathMode::ExactStop};
-    for (std::size_t i = 0; i < here.size(); ++i) {
-        const AxisConfig& axis = loop.machine.axes[i];
-        if ((loop.kinematics.motors_of_axes(axis_bit(i)) & motors) == 0) { continue; }
-        way.axes.push_back(axis.name);
-        way.start_mm.push_back(to_mm(axis, static_cast<double>(here[i])));
-        move.target_mm.push_back(axis.homing.park_mm);
-    }
-    way.blocks.push_back({{}, std::move(move)});
-    return way;
-}
-
-void begin_homing_move(activity::Homing& homing, const Program& move, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    const auto program = commands::known_program(move, loop.machine);
-    check(program.has_value(), "the rules of the machine's file bound how far a search goes on behind its touch");
-    const AxisCounts here = loop.counts();
-    if (const auto fits = jobs.path().planner().check_start((*program)->head(), here); !fits) {
-        return jobs.fail({fits.error().fault}, loop);
-    }
-    PathTask task{.job = jobs.begin_in_pause(JobKind::Home, *program, here, loop), .from = here};
-    const PathNext next = jobs.path().begin_leg(task, loop, loop.out.events);
-    if (!std::holds_alternative<EpochBegun>(next)) {  // it touches already, or no motor has to move
-        return go_on_homing(homing, task, std::holds_alternative<Probed>(next), jobs, loop);
-    }
-    activity::OnPath moving{{}, std::move(task), {}, {}, homing};
-    jobs.activity().become(MachineEvent::EpochBegins, std::move(moving), loop.out);
-}
-
-void advance_touch(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    TouchHoming& touch = *homing.touch;
-    switch (touch.next(loop)) {
-        case TouchHoming::Next::Wait: return;
-        case TouchHoming::Next::Assume: return assume_place(touch.axis(), touch.place(), loop);
-        case TouchHoming::Next::Move: return begin_homing_move(homing, touch.program(loop), jobs, loop);
-        case TouchHoming::Next::End:
-            assume_place(touch.axis(), touch.place(), loop);
-            homing.by_touch &= ~axis_bit(touch.axis());
-            return homing.touch.reset();
-        case TouchHoming::Next::Fail: {
-            const AxisSet motors = loop.kinematics.motors_of_axes(axis_bit(touch.axis()));
-            return jobs.fail({touch.fault(), first_of(motors)}, loop);
-        }
-    }
-}
-
-void advance_homing(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    if (const auto motor = homing.skew.look(loop.axes)) { return jobs.fail({FaultCode::MotorsSkewed, *motor}, loop); }
-    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
-        if (!loop.is_order_done(i)) { return; }
-        const auto& order = loop.orders.newest(i);
-        const auto& state = loop.axes.state(i);
-        const bool refused = state && state->command_fault != FaultCode::None;
-        if (refused && order && is_of_homing(order->kind)) { return jobs.fail({state->command_fault, i}, loop); }
-    }
-    if (homing.touch) { return advance_touch(homing, jobs, loop); }
-    if (home_next_group(homing, loop)) { return; }
-    if (!homing.has_assumed) { return jobs.end(JobOutcome::Done, loop); }
-    if (!std::exchange(homing.has_parked, true)) {
-        return begin_homing_move(homing, way_to_parks(homing, loop), jobs, loop);
-    }
-    homing.has_assumed = false;
-    take_places(homing, loop);
 }
 
 /// The motors that the job ordered to a place. `targets`: where they must be, if the job was not stopped.
@@ -279,38 +144,7 @@ void report_on_path(const activity::OnPath& moving, const PathRunner& path, Mach
     }
 }
 
-/// Those of several motors of an axis that have switches.
-AxisSet approaching_motors(AxisSet axes, const CoordinatorLoop& loop) {
-    AxisSet motors = 0;
-    for (std::size_t i = 0; i < loop.machine.axes.size(); ++i) {
-        const AxisConfig& axis = loop.machine.axes[i];
-        if (!has_axis(axes, i) || axis.motors.size() < 2 || axis.homing.in_place) { continue; }
-        motors |= loop.kinematics.motors_of_axes(axis_bit(i));
-    }
-    return motors;
-}
-
 }  // namespace
-
-bool home_next_group(activity::Homing& homing, CoordinatorLoop& loop) {
-    if (homing.approaching != 0) {
-        loop.order_each(std::exchange(homing.approaching, 0), AxisCommandKind::Home);
-        return true;
-    }
-    if (homing.by_touch != 0) {
-        if (!std::exchange(homing.has_assumed, true)) { assume_places(homing, loop); }
-        homing.touch.emplace(first_of(homing.by_touch), loop.machine);
-        return true;
-    }
-    const AxisSet group = homing.sequence.next_group(loop.machine);
-    homing.by_touch = axes_homed_by_touch(group, loop.machine);
-    const AxisSet by_touch = motors_homed_by_touch(homing.sequence.axes(), loop);
-    homing.approaching = approaching_motors(group, loop) & ~by_touch;
-    loop.order_each(homing.approaching, AxisCommandKind::Approach);
-    loop.order_each(loop.kinematics.motors_of_axes(group) & ~homing.approaching & ~by_touch, AxisCommandKind::Home);
-    homing.skew.begin(loop.axes);
-    return group != 0;
-}
 
 void advance_job(JobLifecycle& jobs, CoordinatorLoop& loop) {
     MachineActivity& activity = jobs.activity();

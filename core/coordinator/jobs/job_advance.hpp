@@ -5,8 +5,6 @@
 
 namespace lockstep {
 
-/// Orders the motors of the next group of axes to home. Returns false if there is none.
-bool home_next_group(activity::Homing& homing, CoordinatorLoop& loop);
 /// Call it in each loop.
 void advance_jogs(JobLifecycle& jobs, CoordinatorLoop& loop);
 /// Call it in each slot.

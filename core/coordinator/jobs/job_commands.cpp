@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/check.hpp"
-#include "core/coordinator/jobs/job_advance.hpp"
+#include "core/coordinator/jobs/homing_job.hpp"
 #include "core/coordinator/path/coordination.hpp"
 #include "core/coordinator/path/return_way.hpp"
 #include "core/protocol/names.hpp"
