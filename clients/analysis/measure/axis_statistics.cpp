@@ -1,10 +1,9 @@
 #include "clients/analysis/measure/axis_statistics.hpp"
 
+#include "clients/analysis/vector/clones.hpp"
 #include "clients/analysis/vector/lanes.hpp"
-#include "services/record/reading/vector_clones.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
@@ -93,21 +92,14 @@ std::size_t AxisStatistics::measure_blocks(const StepBatch& batch, std::size_t f
 /// Measures the steps that the meter took in blocks.
 LOCKSTEP_VECTOR_CLONES
 void AxisStatistics::measure_taken(std::span<StepRates> rates) {
-    constexpr std::size_t kTogether = 16;  // as many as the processor's nearest memory holds
-    std::array<SpeedMeter::Block, kTogether> blocks;
-    while (!rates.empty()) {
-        const std::span measured(blocks.data(), std::min(kTogether, rates.size() / SpeedMeter::kBlock));
-        meter_.measure(measured);
-        for (const SpeedMeter::Block& block : measured) {
-            store_rates(block, 0, rates.data());
-            store_rates(block, SpeedMeter::kBlock / 2, &rates[SpeedMeter::kBlock / 2]);
-            rates = rates.subspan(SpeedMeter::kBlock);
-        }
+    SpeedMeter::Block block;
+    for (std::size_t i = 0; i < rates.size(); i += SpeedMeter::kBlock) {
+        meter_.measure_block(block);
+        store_rates(block, 0, &rates[i]);
+        store_rates(block, SpeedMeter::kBlock / 2, &rates[i + SpeedMeter::kBlock / 2]);
         if (!keeps_curves_) { continue; }
-        for (const SpeedMeter::Block& block : measured) {
-            speed_.add_block(block.speed);
-            acceleration_.add_block(block.acceleration);
-        }
+        speed_.add_block(block.speed);
+        acceleration_.add_block(block.acceleration);
     }
 }
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "clients/analysis/vector/clones.hpp"
 #include "clients/analysis/vector/lanes.hpp"
-#include "services/record/reading/vector_clones.hpp"
 
 namespace lockstep::analysis {
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "clients/analysis/vector/clones.hpp"
 #include "clients/analysis/vector/lanes.hpp"
-#include "services/record/reading/vector_clones.hpp"
 
 namespace lockstep::analysis {
 namespace {

@@ -1,6 +1,6 @@
 #include "clients/analysis/measure/skew.hpp"
 
-#include "services/record/reading/vector_clones.hpp"
+#include "clients/analysis/vector/clones.hpp"
 
 #include <algorithm>
 #include <bit>

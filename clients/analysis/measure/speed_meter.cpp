@@ -1,7 +1,7 @@
 #include "clients/analysis/measure/speed_meter.hpp"
 
+#include "clients/analysis/vector/clones.hpp"
 #include "clients/analysis/vector/lanes.hpp"
-#include "services/record/reading/vector_clones.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -67,6 +67,12 @@ std::size_t SpeedMeter::take_blocks(std::span<const StepEdge> edges) {
     return edges.size();
 }
 
+void SpeedMeter::measure_block(Block& measured) {
+    measure_speeds(measured_until_, measured.speed);
+    measure_accelerations(measured_until_, measured.acceleration);
+    measured_until_ += kBlock;
+}
+
 /// The number of blocks whose steps continue the motion. They complete windows, because the last step has.
 LOCKSTEP_VECTOR_CLONES
 std::size_t SpeedMeter::blocks_of_motion(std::span<const StepEdge> edges) const {
@@ -105,50 +111,8 @@ std::size_t SpeedMeter::blocks_of_motion(std::span<const StepEdge> edges) const 
     return window;
 }
 
-/// Finds windows of almost equally many steps, without branches, which would be mispredicted. `first` is the begin of
-/// the first one. Returns false if they have other numbers of steps.
-[[gnu::always_inline]] inline bool SpeedMeter::narrow_near(std::size_t first, std::int32_t least, std::size_t from,
-                                                           Begins& begins) const {
-    constexpr std::int32_t kNear = 3;  // steps more or fewer
-    if (first < kNear) { return false; }
-    const std::int32_t* const shortest = past_.data() + from - kLeastSteps;
-    const std::int32_t* const longest = past_.data() + first - kNear;
-    IntLanes until;
-    IntLanes place;
-    load(until, past_.data() + from);
-    until -= least;
-    const IntLanes latest = kEachLane + static_cast<std::int32_t>(from - kLeastSteps);
-    load(place, shortest);
-    if (all_true(place <= until)) {
-        store(latest, begins.data());
-        return true;
-    }
-    IntLanes fit{};
-    for (std::int32_t k = 0; k <= 2 * kNear; ++k) {
-        load(place, longest + k);
-        fit -= place <= until;
-    }
-    load(place, longest + 2 * kNear + 1);
-    const IntLanes begin = kEachLane + fit + static_cast<std::int32_t>(first - kNear - 1);
-    store(begin < latest ? begin : latest, begins.data());
-    return all_true(fit > 0) && all_true(place > until);
-}
-
-/// narrow() for each step of a block.
-[[gnu::always_inline]] inline void SpeedMeter::narrow_all(std::size_t& first, std::int32_t least, std::size_t from,
-                                                          Begins& begins) const {
-    (void)narrow(first, least, from);
-    if (!narrow_near(first, least, from, begins)) {
-        begins[0] = static_cast<std::int32_t>(first);
-        for (std::size_t i = 1; i < kBlock; ++i) {
-            (void)narrow(first, least, from + i);
-            begins[i] = static_cast<std::int32_t>(first);
-        }
-    }
-    first = static_cast<std::size_t>(begins.back());
-}
-
-[[gnu::always_inline]] inline void SpeedMeter::measure_speeds(std::size_t from, SampleBlock& measured) {
+LOCKSTEP_VECTOR_CLONES
+void SpeedMeter::measure_speeds(std::size_t from, SampleBlock& measured) {
     Begins begins;
     narrow_all(speed_first_, kSpeedWindow, from, begins);
     const Begins firsts = ticks_at(begins);
@@ -165,7 +129,8 @@ std::size_t SpeedMeter::blocks_of_motion(std::span<const StepEdge> edges) const 
     peak_speed_ = std::max({peak_speed_, measured.highest, -measured.lowest});
 }
 
-[[gnu::always_inline]] inline void SpeedMeter::measure_accelerations(std::size_t from, SampleBlock& measured) {
+LOCKSTEP_VECTOR_CLONES
+void SpeedMeter::measure_accelerations(std::size_t from, SampleBlock& measured) {
     Begins begins;
     narrow_all(late_first_, kAccelerationWindow, from, begins);
     measured.at = ticks_at(begins);
@@ -198,13 +163,46 @@ std::size_t SpeedMeter::blocks_of_motion(std::span<const StepEdge> edges) const 
     acceleration_ = measured[kBlock - 1];
 }
 
-LOCKSTEP_VECTOR_CLONES
-void SpeedMeter::measure(std::span<Block> blocks) {
-    for (Block& block : blocks) {
-        measure_speeds(measured_until_, block.speed);
-        measure_accelerations(measured_until_, block.acceleration);
-        measured_until_ += kBlock;
+/// narrow() for each step of a block.
+void SpeedMeter::narrow_all(std::size_t& first, std::int32_t least, std::size_t from, Begins& begins) const {
+    (void)narrow(first, least, from);
+    if (!narrow_near(first, least, from, begins)) {
+        begins[0] = static_cast<std::int32_t>(first);
+        for (std::size_t i = 1; i < kBlock; ++i) {
+            (void)narrow(first, least, from + i);
+            begins[i] = static_cast<std::int32_t>(first);
+        }
     }
+    first = static_cast<std::size_t>(begins.back());
+}
+
+/// Finds windows of almost equally many steps, without branches, which would be mispredicted. `first` is the begin of
+/// the first one. Returns false if they have other numbers of steps.
+LOCKSTEP_VECTOR_CLONES
+bool SpeedMeter::narrow_near(std::size_t first, std::int32_t least, std::size_t from, Begins& begins) const {
+    constexpr std::int32_t kNear = 3;  // steps more or fewer
+    if (first < kNear) { return false; }
+    const std::int32_t* const shortest = past_.data() + from - kLeastSteps;
+    const std::int32_t* const longest = past_.data() + first - kNear;
+    IntLanes until;
+    IntLanes place;
+    load(until, past_.data() + from);
+    until -= least;
+    const IntLanes latest = kEachLane + static_cast<std::int32_t>(from - kLeastSteps);
+    load(place, shortest);
+    if (all_true(place <= until)) {
+        store(latest, begins.data());
+        return true;
+    }
+    IntLanes fit{};
+    for (std::int32_t k = 0; k <= 2 * kNear; ++k) {
+        load(place, longest + k);
+        fit -= place <= until;
+    }
+    load(place, longest + 2 * kNear + 1);
+    const IntLanes begin = kEachLane + fit + static_cast<std::int32_t>(first - kNear - 1);
+    store(begin < latest ? begin : latest, begins.data());
+    return all_true(fit > 0) && all_true(place > until);
 }
 
 }  // namespace lockstep::analysis

@@ -45,10 +45,9 @@ public:
         SampleBlock acceleration;
     };
     /// Takes the next steps in whole blocks, which costs less, as long as they certainly complete all windows. Returns
-    /// their number. Call measure() for all of these blocks before further steps.
+    /// their number. Call measure_block() for each block before further steps.
     std::size_t take_blocks(std::span<const StepEdge> edges);
-    /// Measures the next blocks.
-    void measure(std::span<Block> blocks);
+    void measure_block(Block& measured);
     /// Ends the motion: later steps do not join the previous ones.
     void interrupt();
 

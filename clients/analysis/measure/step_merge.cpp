@@ -4,80 +4,35 @@
 #include <span>
 #include <utility>
 
-#include "clients/analysis/vector/lanes.hpp"
-#include "services/record/reading/vector_clones.hpp"
-
 namespace lockstep::analysis {
 namespace {
 
-constexpr std::size_t kBlock = 8;          // steps that are merged at once
-constexpr std::size_t kRoom = 3 * kBlock;  // steps read behind the last one
-const MergedStep kLast(Ticks{(std::int64_t{1} << 56) - 1}, 63, -1);
-static_assert(sizeof(MergedStep) * kBlock == sizeof(LongLanes));
-
-/// The steps' ticks are `first` later than their offsets.
-LOCKSTEP_VECTOR_CLONES
-void number_one_way(std::span<const std::int32_t> offsets, Ticks first, std::size_t lane, std::int8_t direction,
-                    MergedStep* to) {
-    for (const std::int32_t offset : offsets) { *to++ = MergedStep(first + Ticks{offset}, lane, direction); }
-}
-
-/// Orders numbers that rise and then fall, or are such numbers in a circle (Batcher's bitonic merge, 1968).
-[[gnu::always_inline]] inline void order(LongLanes& numbers) {
-    LongLanes others = __builtin_shufflevector(numbers, numbers, 4, 5, 6, 7, 0, 1, 2, 3);
-    LongLanes low = others < numbers ? others : numbers;
-    LongLanes high = others < numbers ? numbers : others;
-    numbers = __builtin_shufflevector(low, high, 0, 1, 2, 3, 12, 13, 14, 15);
-    others = __builtin_shufflevector(numbers, numbers, 2, 3, 0, 1, 6, 7, 4, 5);
-    low = others < numbers ? others : numbers;
-    high = others < numbers ? numbers : others;
-    numbers = __builtin_shufflevector(low, high, 0, 1, 10, 11, 4, 5, 14, 15);
-    others = __builtin_shufflevector(numbers, numbers, 1, 0, 3, 2, 5, 4, 7, 6);
-    low = others < numbers ? others : numbers;
-    high = others < numbers ? numbers : others;
-    numbers = __builtin_shufflevector(low, high, 0, 9, 2, 11, 4, 13, 6, 15);
-}
-
-/// Puts the lowest numbers of two ordered blocks into the first one, and the highest into the second one.
-[[gnu::always_inline]] inline void order_both(LongLanes& first, LongLanes& second) {
-    const LongLanes falling = __builtin_shufflevector(second, second, 7, 6, 5, 4, 3, 2, 1, 0);
-    second = falling < first ? first : falling;
-    first = falling < first ? falling : first;
-    order(first);
-    order(second);
-}
-
-/// Merges `size` steps in whole blocks, without branches, which would be mispredicted.
-LOCKSTEP_VECTOR_CLONES
-void merge_blocks(const MergedStep* a, const MergedStep* b, MergedStep* to, std::size_t size) {
-    LongLanes lowest;
-    LongLanes highest;
-    load(lowest, a);
-    load(highest, b);
-    a += kBlock;
-    b += kBlock;
-    for (std::size_t done = 0; done < size; done += kBlock) {
-        order_both(lowest, highest);
-        store(lowest, to + done);
-        const bool is_b = *b < *a;
-        load(lowest, is_b ? b : a);
-        a += is_b ? 0 : kBlock;
-        b += is_b ? kBlock : 0;
+/// Merges from both ends at once: each end waits for its own comparisons only. Has no other branches, which would be
+/// mispredicted.
+void merge(std::span<const MergedStep> a, std::span<const MergedStep> b, MergedStep* to) {
+    MergedStep* end = to + a.size() + b.size();
+    while (!a.empty() && !b.empty()) {
+        const MergedStep* first_a = a.data();
+        const MergedStep* first_b = b.data();
+        const MergedStep* last_a = &a.back();
+        const MergedStep* last_b = &b.back();
+        for (std::size_t both = std::min(a.size(), b.size()); both > 0; --both) {
+            const bool is_b = *first_b < *first_a;
+            *to++ = is_b ? *first_b : *first_a;
+            first_a += static_cast<std::ptrdiff_t>(!is_b);
+            first_b += static_cast<std::ptrdiff_t>(is_b);
+            const bool is_a = *last_b < *last_a;
+            *--end = is_a ? *last_a : *last_b;
+            last_a -= static_cast<std::ptrdiff_t>(is_a);
+            last_b -= static_cast<std::ptrdiff_t>(!is_a);
+        }
+        a = {first_a, last_a + 1};
+        b = {first_b, last_b + 1};
     }
+    std::ranges::copy(b, std::ranges::copy(a, to).out);
 }
 
 }  // namespace
-
-void StepMerge::OrderedSteps::resize(std::size_t size) {
-    size_ = size;
-    steps_.resize(size + kRoom);
-    std::fill_n(steps_.end() - kRoom, kRoom, kLast);
-}
-
-void StepMerge::OrderedSteps::merge(const OrderedSteps& a, const OrderedSteps& b) {
-    resize(a.size() + b.size());
-    merge_blocks(a.steps_.data(), b.steps_.data(), steps_.data(), size_);
-}
 
 std::size_t StepMerge::add_lane() {
     lanes_.emplace_back();
@@ -164,19 +119,12 @@ void StepMerge::add(std::size_t lane) {
     const auto& steps = ready_[lane].steps;
     if (steps.empty()) { return; }
     added_.resize(steps.size());
-    const StepEdges& batch = lanes_[lane].steps.batch();
-    if (batch.is_one_way() && !batch.offsets().empty()) {
-        const auto first = static_cast<std::size_t>(steps.data() - batch.begin());
-        number_one_way(batch.offsets().subspan(first, steps.size()), batch.front().tick - origin_, lane,
-                       batch.front().direction, added_.begin());
-    } else {
-        std::ranges::transform(steps, added_.begin(), [&](const StepEdge& edge) {
-            return MergedStep(edge.tick - origin_, lane, edge.direction);
-        });
-    }
+    std::ranges::transform(steps, added_.begin(),
+                           [&](const StepEdge& edge) { return MergedStep(edge.tick - origin_, lane, edge.direction); });
     if (merged_.empty()) { return std::swap(merged_, added_); }
     std::swap(merged_, before_);
-    merged_.merge(before_, added_);
+    merged_.resize(before_.size() + added_.size());
+    merge(before_, added_, merged_.data());
 }
 
 /// Drops the delivered steps.

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "clients/analysis/measure/merged_steps.hpp"
@@ -68,22 +67,6 @@ private:
     bool give_up_slowest();
     template <typename OnSteps>
     void deliver_before(Tick end, OnSteps& on_steps);
-    /// Steps in order. Behind them is room for whole blocks, which is filled with steps later than any other.
-    class OrderedSteps {
-    public:
-        void clear() { size_ = 0; }
-        void resize(std::size_t size);
-        bool empty() const { return size_ == 0; }
-        std::size_t size() const { return size_; }
-        MergedStep* begin() { return steps_.data(); }
-        std::span<const MergedStep> steps() const { return {steps_.data(), size_}; }
-        /// Makes these the steps of both.
-        void merge(const OrderedSteps& a, const OrderedSteps& b);
-
-    private:
-        std::vector<MergedStep> steps_;
-        std::size_t size_ = 0;
-    };
     bool merge_before(Tick end);
     Tick end_of_ready(Tick end) const;
     void add(std::size_t lane);
@@ -94,16 +77,16 @@ private:
     std::vector<Lane> lanes_;
     // The steps being delivered.
     std::vector<MergedSteps::Lane> ready_;
-    OrderedSteps merged_;
-    OrderedSteps added_;   // of the lane added last
-    OrderedSteps before_;  // merged_, without them
-    Tick origin_;          // of their ticks
+    std::vector<MergedStep> merged_;
+    std::vector<MergedStep> added_;   // of the lane added last
+    std::vector<MergedStep> before_;  // merged_, without them
+    Tick origin_;                     // of their ticks
 };
 
 template <typename OnSteps>
 void StepMerge::deliver_before(Tick end, OnSteps& on_steps) {
     while (merge_before(end)) {
-        on_steps(MergedSteps(origin_, merged_.steps(), ready_));
+        on_steps(MergedSteps(origin_, merged_, ready_));
         pop();
     }
 }

@@ -1,9 +1,10 @@
 #include "clients/analysis/measure/trace.hpp"
 
+#include "clients/analysis/vector/clones.hpp"
 #include "clients/analysis/vector/lanes.hpp"
-#include "services/record/reading/vector_clones.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -12,93 +13,72 @@ namespace {
 
 // An interval this many times longer than the previous one contains a rest.
 constexpr std::int64_t kRestRatio = 4;
-/// The steps of the batch before a block, whose intervals tell whether the axis rests.
-constexpr std::size_t kBefore = 2;
-
-/// Of several points at once: their slopes, and those of lines that still pass them.
-struct Slopes {
-    DoubleLanes lowest;
-    DoubleLanes highest;
-    DoubleLanes low;
-    DoubleLanes high;
-
-    [[gnu::always_inline]] void add(const Slopes& other) {
-        lowest = other.lowest < lowest ? other.lowest : lowest;
-        highest = other.highest > highest ? other.highest : highest;
-        low = other.low > low ? other.low : low;
-        high = other.high < high ? other.high : high;
-    }
-};
-
-constexpr DoubleLanes kPlaces{0, 1, 2, 3, 4, 5, 6, 7};
-
-/// Whether the axis does not rest before any step of a block. `block`: the steps' ticks.
-[[gnu::always_inline]] inline bool goes_on(const std::int32_t* block) {
-    constexpr std::int32_t kLongest = std::numeric_limits<std::int32_t>::max() / (2 * kRestRatio);
-    IntLanes ticks;
-    IntLanes before;
-    IntLanes earlier;
-    load(ticks, block);
-    load(before, block - 1);
-    load(earlier, block - 2);
-    const IntLanes previous = before - earlier;
-    const IntLanes rest = ticks - before - previous * static_cast<std::int32_t>(kRestRatio);
-    const IntLanes excess = previous - kLongest;
-    return all_true((rest > excess ? rest : excess) < 0);
-}
 
 double ticks_between(Tick from, Tick to) { return static_cast<double>(to.value - from.value); }
 
 }  // namespace
 
 void Trace::on_batch(const StepBatch& batch) {
-    const StepEdges& steps = batch.steps;
     position_ = batch.position_before_steps;
-    const bool has_blocks = steps.is_one_way() && !steps.offsets().empty();
-    for (std::size_t i = 0; i < steps.size();) {
-        if (has_blocks && i >= kBefore && i + kBlock <= steps.size() && block(steps, i)) {
+    for (std::size_t i = 0; i < batch.steps.size();) {
+        const bool is_block = i + kBlock <= batch.steps.size();
+        if (is_block && steps(std::span<const StepEdge, kBlock>(&batch.steps[i], kBlock))) {
             i += kBlock;
             continue;
         }
-        for (const std::size_t end = std::min(i + (i < kBefore ? kBefore : kBlock), steps.size()); i < end; ++i) {
-            step(steps[i], position_);
-            position_ += steps[i].direction;
+        for (const std::size_t end = std::min(i + kBlock, batch.steps.size()); i < end; ++i) {
+            step(batch.steps[i], position_);
+            position_ += batch.steps[i].direction;
         }
     }
 }
 
-/// Takes a block of steps, from `first` on, as step() does, but all at once, which costs less. Returns false and takes
-/// none if the current line might not pass all of them, or if the axis might have rested.
+/// Takes steps as step() does, but all at once, which costs less. Returns false and takes none if the current line
+/// might not pass all of them, or if the axis might have rested or turned.
 LOCKSTEP_VECTOR_CLONES
-bool Trace::block(const StepEdges& steps, std::size_t first) {
-    const std::int32_t* const block = &steps.offsets()[first];
-    if (!newest_ || last_interval_ == Ticks{} || !goes_on(block)) { return false; }
+bool Trace::steps(std::span<const StepEdge, kBlock> edges) {
+    if (!newest_ || !last_step_ || last_interval_ == Ticks{} || !go_on(edges)) { return false; }
     const Knot& anchor = knots_.back();
-    const std::int64_t direction = steps.front().direction;
-    const double sign = static_cast<double>(direction);
-    const double position = static_cast<double>(position_) + sign * 0.5 - anchor.position_steps;
-    const double begin = ticks_between(anchor.tick, steps.front().tick);
-    Slopes slopes[2];
-    for (std::size_t half = 0; half < 2; ++half) {
-        HalfIntLanes offset;
-        load(offset, block + half * kBlock / 2);
-        const DoubleLanes time = begin + __builtin_convertvector(offset, DoubleLanes);
-        const DoubleLanes passed = kPlaces + static_cast<double>(half * kBlock / 2);
-        const DoubleLanes half_angle = tolerance_ / time;
-        const DoubleLanes slope = (position + sign * passed) / time;
-        slopes[half] = {slope, slope, slope - half_angle, slope + half_angle};
+    const std::int64_t direction = edges[0].direction;
+    const double first = static_cast<double>(position_) + static_cast<double>(direction) * 0.5 - anchor.position_steps;
+    std::array<double, kBlock> slopes;
+    std::array<double, kBlock> lows;
+    std::array<double, kBlock> highs;
+    for (std::size_t i = 0; i < kBlock; ++i) {
+        const double time = ticks_between(anchor.tick, edges[i].tick);
+        const double half_angle = tolerance_ / time;
+        slopes[i] = (first + static_cast<double>(static_cast<std::int64_t>(i) * direction)) / time;
+        lows[i] = slopes[i] - half_angle;
+        highs[i] = slopes[i] + half_angle;
     }
-    slopes[0].add(slopes[1]);
-    const double low = std::max(low_slope_, highest_of(slopes[0].low));
-    const double high = std::min(high_slope_, lowest_of(slopes[0].high));
-    if (lowest_of(slopes[0].lowest) < low || highest_of(slopes[0].highest) > high) { return false; }
+    const double low = std::max(low_slope_, highest_of(lows));
+    const double high = std::min(high_slope_, lowest_of(highs));
+    if (lowest_of(slopes) < low || highest_of(slopes) > high) { return false; }
     low_slope_ = low;
     high_slope_ = high;
     position_ += direction * static_cast<std::int64_t>(kBlock);
-    last_step_ = steps[first + kBlock - 1].tick;
-    last_interval_ = Ticks{block[kBlock - 1] - block[kBlock - 2]};
-    newest_ = Knot{*last_step_, static_cast<double>(position_ - direction) + sign * 0.5};
+    last_step_ = edges.back().tick;
+    last_interval_ = edges[kBlock - 1].tick - edges[kBlock - 2].tick;
+    newest_ = Knot{*last_step_, static_cast<double>(position_ - direction) + static_cast<double>(direction) * 0.5};
     return true;
+}
+
+/// Whether the axis goes on in one direction, without a rest.
+LOCKSTEP_VECTOR_CLONES
+bool Trace::go_on(std::span<const StepEdge, kBlock> edges) const {
+    std::array<std::int64_t, kBlock + 1> intervals;
+    intervals[0] = last_interval_.value;
+    intervals[1] = (edges[0].tick - *last_step_).value;
+    for (std::size_t i = 1; i < kBlock; ++i) { intervals[i + 1] = (edges[i].tick - edges[i - 1].tick).value; }
+    std::array<std::int64_t, kBlock> rests;  // at least 0 where it rests
+    std::int64_t turns = 0;
+    for (std::size_t i = 0; i < kBlock; ++i) { rests[i] = intervals[i + 1] - intervals[i] * kRestRatio; }
+    for (std::size_t i = 0; i < kBlock; ++i) { turns |= edges[i].direction ^ edges[0].direction; }
+    LongLanes first;
+    LongLanes second;
+    load(first, rests.data());
+    load(second, rests.data() + kBlock / 2);
+    return turns == 0 && all_true((first > second ? first : second) < 0);
 }
 
 void Trace::on_break(const Break&) { finish(); }

@@ -40,7 +40,8 @@ public:
 
 private:
     static constexpr std::size_t kBlock = 16;
-    bool block(const StepEdges& steps, std::size_t first);
+    bool steps(std::span<const StepEdge, kBlock> edges);
+    bool go_on(std::span<const StepEdge, kBlock> edges) const;
     void step(StepEdge edge, std::int64_t position_before);
     void rest(Tick until, std::int64_t position);
     void point(Tick tick, double position);

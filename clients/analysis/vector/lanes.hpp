@@ -50,30 +50,19 @@ template <typename Lanes, typename Number>
 /// Whether all results of a comparison are true.
 template <typename Lanes>
 [[gnu::always_inline]] inline bool all_true(const Lanes& results) {
-    LongLanes all;
-    static_assert(sizeof all == sizeof results);
-    std::memcpy(&all, &results, sizeof all);
-    all &= __builtin_shufflevector(all, all, 4, 5, 6, 7, 0, 1, 2, 3);
-    all &= __builtin_shufflevector(all, all, 2, 3, 0, 1, 6, 7, 4, 5);
-    return (all[0] & all[1]) == -1;
+    std::array<std::int64_t, 8> words;
+    static_assert(sizeof words == sizeof results);
+    std::memcpy(&words, &results, sizeof words);
+    return ((words[0] & words[1]) & (words[2] & words[3]) & (words[4] & words[5]) & (words[6] & words[7])) == -1;
 }
 
-/// Halves the number of candidates three times.
-[[gnu::always_inline]] inline double lowest_of(const DoubleLanes& all) {
-    DoubleLanes lanes = all;
-    const auto keep_lower = [&](const DoubleLanes& others) { lanes = others < lanes ? others : lanes; };
-    keep_lower(__builtin_shufflevector(lanes, lanes, 4, 5, 6, 7, 0, 1, 2, 3));
-    keep_lower(__builtin_shufflevector(lanes, lanes, 2, 3, 0, 1, 6, 7, 4, 5));
-    keep_lower(__builtin_shufflevector(lanes, lanes, 1, 0, 3, 2, 5, 4, 7, 6));
-    return lanes[0];
+[[gnu::always_inline]] inline double lowest_of(const DoubleLanes& lanes) {
+    const auto least = [&](int a, int b) { return lanes[b] < lanes[a] ? lanes[b] : lanes[a]; };
+    return std::min(std::min(least(0, 1), least(2, 3)), std::min(least(4, 5), least(6, 7)));
 }
-[[gnu::always_inline]] inline double highest_of(const DoubleLanes& all) {
-    DoubleLanes lanes = all;
-    const auto keep_higher = [&](const DoubleLanes& others) { lanes = others > lanes ? others : lanes; };
-    keep_higher(__builtin_shufflevector(lanes, lanes, 4, 5, 6, 7, 0, 1, 2, 3));
-    keep_higher(__builtin_shufflevector(lanes, lanes, 2, 3, 0, 1, 6, 7, 4, 5));
-    keep_higher(__builtin_shufflevector(lanes, lanes, 1, 0, 3, 2, 5, 4, 7, 6));
-    return lanes[0];
+[[gnu::always_inline]] inline double highest_of(const DoubleLanes& lanes) {
+    const auto most = [&](int a, int b) { return lanes[b] > lanes[a] ? lanes[b] : lanes[a]; };
+    return std::max(std::max(most(0, 1), most(2, 3)), std::max(most(4, 5), most(6, 7)));
 }
 
 /// The same of 16 numbers.

@@ -4,29 +4,14 @@
 #include <array>
 #include <bit>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 
 #include "services/record/reading/content_memory.hpp"
 #include "services/record/reading/recycled.hpp"
-#include "services/record/reading/vector_clones.hpp"
 
 namespace lockstep::analysis {
 
-StepEdges::KeptSteps::KeptSteps(std::vector<StepEdge> of) : steps(std::move(of)) {
-    const bool are_small = !steps.empty() && (steps.back().tick - steps.front().tick).value <= INT32_MAX;
-    if (!are_small) { return; }
-    offsets = Recycled<std::int32_t>::take(steps.size());
-    const Tick first = steps.front().tick;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-        offsets[i] = static_cast<std::int32_t>((steps[i].tick - first).value);
-    }
-}
-
-StepEdges::KeptSteps::~KeptSteps() {
-    Recycled<StepEdge>::give(std::move(steps));
-    Recycled<std::int32_t>::give(std::move(offsets));
-}
+StepEdges::KeptSteps::~KeptSteps() { Recycled<StepEdge>::give(std::move(steps)); }
 
 /// Several hashes in turn, because each waits for its own previous step only.
 StepEdges::StepEdges(std::vector<StepEdge> steps)
@@ -57,31 +42,27 @@ std::int64_t change_of(std::span<const StepEdge> steps, bool is_one_way) {
     return change;
 }
 
-/// Compares many steps without a branch for each: of a step its tick, and a word of which the lowest byte is its
-/// direction.
-LOCKSTEP_VECTOR_CLONES
+/// Compares many steps without a branch for each, a step in one vector: its tick, and a word of which the lowest byte
+/// is its direction.
 std::size_t equal_steps(std::span<const StepEdge> a, std::span<const StepEdge> b, Ticks later) {
     constexpr std::size_t kTogether = 16;
-    using Words [[gnu::vector_size(64)]] = std::int64_t;
-    constexpr std::size_t kInWords = sizeof(Words) / sizeof(StepEdge);
+    using Words [[gnu::vector_size(sizeof(StepEdge))]] = std::int64_t;
     static_assert(sizeof(StepEdge) == 2 * sizeof(std::int64_t) &&
                   offsetof(StepEdge, direction) == sizeof(std::int64_t));
     static_assert(std::endian::native == std::endian::little);
-    const Words expected{later.value, 0, later.value, 0, later.value, 0, later.value, 0};
-    const Words compared{-1, 0xff, -1, 0xff, -1, 0xff, -1, 0xff};
+    const Words expected{later.value, 0};
+    const Words compared{-1, 0xff};
     const std::size_t most = std::min(a.size(), b.size());
     std::size_t equal = 0;
     for (; equal + kTogether <= most; equal += kTogether) {
         Words differences{};
-        for (std::size_t i = equal; i < equal + kTogether; i += kInWords) {
+        for (std::size_t i = equal; i < equal + kTogether; ++i) {
             Words of_a;
             Words of_b;
             std::memcpy(&of_a, &a[i], sizeof of_a);
             std::memcpy(&of_b, &b[i], sizeof of_b);
             differences |= ((of_a - of_b) ^ expected) & compared;
         }
-        differences |= __builtin_shufflevector(differences, differences, 4, 5, 6, 7, 0, 1, 2, 3);
-        differences |= __builtin_shufflevector(differences, differences, 2, 3, 0, 1, 6, 7, 4, 5);
         if ((differences[0] | differences[1]) != 0) { break; }
     }
     const auto difference = [&](std::size_t i) {

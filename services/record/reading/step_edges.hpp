@@ -37,22 +37,17 @@ public:
     std::int64_t change(std::size_t from, std::size_t end) const {
         return change_of({data_ + from, end - from}, is_one_way());
     }
-    /// The ticks, counted from the first step's, in a quarter of the steps' memory; empty if one of them is too large.
-    std::span<const std::int32_t> offsets() const {
-        return steps_ ? std::span<const std::int32_t>(steps_->offsets) : std::span<const std::int32_t>();
-    }
     bool is_one_way() const { return change_ == std::ssize(*this) || -change_ == std::ssize(*this); }
     /// A hash of all ticks and directions.
     std::size_t content() const { return content_; }
 
 private:
     struct KeptSteps {
-        explicit KeptSteps(std::vector<StepEdge> of);
+        explicit KeptSteps(std::vector<StepEdge> of) : steps(std::move(of)) {}
         KeptSteps(const KeptSteps&) = delete;
         KeptSteps& operator=(const KeptSteps&) = delete;
         ~KeptSteps();
         std::vector<StepEdge> steps;
-        std::vector<std::int32_t> offsets;
     };
     std::shared_ptr<const KeptSteps> steps_;
     const StepEdge* data_ = nullptr;

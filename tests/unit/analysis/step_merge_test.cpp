@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "tests/unit/analysis/step_makers.hpp"
 
 namespace lockstep::analysis {
@@ -46,34 +44,6 @@ TEST_F(Merging, DeliversAStepWhenNoAxisCanDeliverAnEarlierOne) {
     EXPECT_EQ(settled(), 50U + 70U) << "all before Y's newest, at 493";
     EXPECT_EQ(finished(), 100U + 71U);
     EXPECT_TRUE(std::ranges::is_sorted(delivered));
-}
-
-TEST_F(Merging, OrdersAnyNumbersOfStepsOfAnyNumberOfAxes) {
-    std::mt19937 random(47);
-    std::vector<std::size_t> lanes = {x, y};
-    while (lanes.size() < 5) { lanes.push_back(merge.add_lane()); }
-    std::int64_t begin = 0;
-    for (int round = 0; round < 300; ++round, begin += 100'000) {
-        std::vector<std::int64_t> expected;
-        for (const std::size_t lane : lanes) {
-            std::vector<StepEdge> made(1 + random() % 60);
-            std::int64_t tick = begin;
-            const bool is_one_way = random() % 2 == 0;
-            for (StepEdge& step : made) {
-                tick += 1 + static_cast<std::int64_t>(random() % (round % 2 == 0 ? 3 : 300));
-                step = {Tick{tick}, static_cast<std::int8_t>(is_one_way || random() % 2 == 0 ? 1 : -1)};
-                expected.push_back(tick);
-            }
-            MeasuredSteps steps;
-            steps.rates.resize(made.size());
-            steps.edges = std::move(made);
-            merge.take(lane, std::make_shared<MeasuredSteps>(std::move(steps)));
-        }
-        delivered.clear();
-        (void)finished();
-        std::ranges::sort(expected);
-        EXPECT_EQ(delivered, expected);
-    }
 }
 
 TEST_F(Merging, WaitsForALateAxisForAnyTime) {
