@@ -61,9 +61,7 @@ bool is_pico(const fs::path& drive) {
 
 }  // namespace
 
-fs::path shipped_firmware() {
-    return (program_folder() / "../share/lockstep/firmware/lockstep-board.uf2").lexically_normal();
-}
+fs::path shipped_firmware() { return program_folder().parent_path() / "share/lockstep/firmware/lockstep-board.uf2"; }
 
 std::expected<std::string, Failure> read_firmware(const fs::path& file) {
     const auto refuse = [&](const std::string& why) { return std::unexpected(bad_input(file.string() + ": " + why)); };

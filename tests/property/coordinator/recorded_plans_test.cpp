@@ -1,10 +1,10 @@
 // Plans by Lai's method, and estimated times of programs, stay as recorded. To write the files:
 // LOCKSTEP_WRITE_HASHES=1 build/bin/property_coordinator --gtest_filter='*StayAsRecorded'
 #include <cmath>
-#include <random>
 
 #include "core/coordinator/path/lai_path.hpp"
 #include "core/coordinator/program/block_times.hpp"
+#include "tests/property/draw_below.hpp"
 #include "tests/property/recorded_hashes.hpp"
 #include "tests/property/recorded_text.hpp"
 
@@ -14,25 +14,18 @@ namespace {
 constexpr std::uint32_t kPaths = 60;
 constexpr std::uint32_t kPrograms = 600;
 
-using Random = std::mt19937_64;
-
-std::int64_t below(Random& random, std::int64_t n) {
-    return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(n));
-}
-bool one_of(Random& random, std::int64_t n) { return below(random, n) == 0; }
-
 /// The pulses per period are whole numbers, or a little more or less.
 AxisLimits draw_lai_limits(Random& random, std::int64_t tick_ns) {
     const double period = static_cast<double>(kLaiPeriod_ns) / static_cast<double>(tick_ns);
     const auto near = [&](std::int64_t pulses) {
-        return static_cast<double>(pulses) + static_cast<double>(below(random, 3) - 1) / 8;
+        return static_cast<double>(pulses) + static_cast<double>(draw_below(random, 3) - 1) / 8;
     };
     AxisLimits limits;
-    limits.start_velocity = near(3 + below(random, 3)) / period;
-    limits.max_velocity = limits.start_velocity + near(1 + below(random, 60)) / period;
-    limits.max_acceleration = near(3 + below(random, 6)) / period / period;
+    limits.start_velocity = near(3 + draw_below(random, 3)) / period;
+    limits.max_velocity = limits.start_velocity + near(1 + draw_below(random, 60)) / period;
+    limits.max_acceleration = near(3 + draw_below(random, 6)) / period / period;
     limits.max_deceleration =
-        one_of(random, 2) ? limits.max_acceleration : near(3 + below(random, 6)) / period / period;
+        one_in(random, 2) ? limits.max_acceleration : near(3 + draw_below(random, 6)) / period / period;
     limits.min_steps = -1'000'000;
     limits.max_steps = 1'000'000;
     return limits;
@@ -48,13 +41,13 @@ void record(RecordedText& text, const Path& path) {
 /// A path, the rest of it after a hold within a period, and the way to rest from some instants.
 std::string lai_path_of(std::uint32_t number) {
     Random random(number);
-    const std::int64_t tick_ns = one_of(random, 3) ? 500 : 1000;
+    const std::int64_t tick_ns = one_in(random, 3) ? 500 : 1000;
     const std::size_t axes = 2 + random() % 2;
     std::vector<AxisLimits> limits;
     std::vector<double> steps_per_mm;
     for (std::size_t i = 0; i < axes; ++i) {
         limits.push_back(draw_lai_limits(random, tick_ns));
-        steps_per_mm.push_back(static_cast<double>(20 + below(random, 400)));
+        steps_per_mm.push_back(static_cast<double>(20 + draw_below(random, 400)));
     }
     std::vector<PathMove> moves;
     AxisCounts at;
@@ -62,10 +55,10 @@ std::string lai_path_of(std::uint32_t number) {
     RecordedText text;
     for (std::uint32_t block = 1; block <= 4; ++block) {
         AxisCounts to = at;
-        const std::int64_t size = one_of(random, 2) ? 30 : 3000;
-        for (std::size_t i = 0; i < axes; ++i) { to[i] += below(random, 2 * size + 1) - size; }
+        const std::int64_t size = one_in(random, 2) ? 30 : 3000;
+        for (std::size_t i = 0; i < axes; ++i) { to[i] += draw_below(random, 2 * size + 1) - size; }
         const auto feed =
-            one_of(random, 2) ? std::nullopt : std::optional(1e-6 * static_cast<double>(below(random, 50)));
+            one_in(random, 2) ? std::nullopt : std::optional(1e-6 * static_cast<double>(draw_below(random, 50)));
         const PathMove move = make_move(at, to, limits, steps_per_mm, feed);
         const auto checked = check_lai_move(move, tick_ns);
         text.line(checked.has_value(), checked ? 0 : checked.error());
@@ -75,12 +68,12 @@ std::string lai_path_of(std::uint32_t number) {
         at = to;
     }
     if (moves.empty()) { return text.text(); }
-    const auto following = one_of(random, 4) ? LaiFollowing::AsPublished : LaiFollowing::OnTheLine;
+    const auto following = one_in(random, 4) ? LaiFollowing::AsPublished : LaiFollowing::OnTheLine;
     const Path path = plan_lai_path(moves, {}, limits, steps_per_mm, tick_ns, Ticks{400}, following);
     record(text, path);
     Path rest;
     for (int k = 0; k < 6; ++k) {
-        const Subticks now{below(random, path.duration().value)};
+        const Subticks now{draw_below(random, path.duration().value)};
         brake_from(path, now, limits, rest);
         record(text, rest);
         const std::size_t held = path.move_at(now);
@@ -96,9 +89,9 @@ MachineConfig draw_machine_with(Random& random, std::size_t axes) {
         machine.axes.push_back({.name = std::string(1, "XYZ"[i]),
                                 .steps_per_mm = 100,
                                 .start_velocity_mm_s = 5,
-                                .max_velocity_mm_s = static_cast<double>(10 + below(random, 100)),
-                                .max_accel_mm_s2 = static_cast<double>(50 + below(random, 2000)),
-                                .max_decel_mm_s2 = static_cast<double>(50 + below(random, 2000)),
+                                .max_velocity_mm_s = static_cast<double>(10 + draw_below(random, 100)),
+                                .max_accel_mm_s2 = static_cast<double>(50 + draw_below(random, 2000)),
+                                .max_decel_mm_s2 = static_cast<double>(50 + draw_below(random, 2000)),
                                 .position_max_mm = 1000});
     }
     return machine;
@@ -107,23 +100,24 @@ MachineConfig draw_machine_with(Random& random, std::size_t axes) {
 /// Moves in few directions, so that many are joined without a corner, or with a blunt one.
 std::vector<double> draw_way(Random& random, std::size_t axes) {
     std::vector<double> way;
-    const double length = std::ldexp(1.0, static_cast<int>(below(random, 10)) - 4);
-    for (std::size_t i = 0; i < axes; ++i) { way.push_back(length * static_cast<double>(below(random, 4) - 1)); }
+    const double length = std::ldexp(1.0, static_cast<int>(draw_below(random, 10)) - 4);
+    for (std::size_t i = 0; i < axes; ++i) { way.push_back(length * static_cast<double>(draw_below(random, 4) - 1)); }
     return way;
 }
 
 void add_block(Random& random, std::size_t axes, BlockTimes& times) {
-    const auto feed = one_of(random, 3) ? std::nullopt : std::optional(static_cast<double>(1 + below(random, 120)));
-    const std::int64_t kind = below(random, 12);
+    const auto feed =
+        one_in(random, 3) ? std::nullopt : std::optional(static_cast<double>(1 + draw_below(random, 120)));
+    const std::int64_t kind = draw_below(random, 12);
     if (kind == 0) { return times.add_rest(); }
-    if (kind == 1) { return times.add_dwell(static_cast<double>(below(random, 20)) / 8); }
+    if (kind == 1) { return times.add_dwell(static_cast<double>(draw_below(random, 20)) / 8); }
     if (kind > 3 || axes < 2) { return times.add_move(draw_way(random, axes), feed); }
-    const double radius = static_cast<double>(1 + below(random, 30));
-    ArcShape shape{.centre_first_mm = radius, .is_clockwise = one_of(random, 2)};
-    shape.turns = 1 + static_cast<std::int32_t>(below(random, 3));
+    const double radius = static_cast<double>(1 + draw_below(random, 30));
+    ArcShape shape{.centre_first_mm = radius, .is_clockwise = one_in(random, 2)};
+    shape.turns = 1 + static_cast<std::int32_t>(draw_below(random, 3));
     const std::vector<double> from(axes, 0);
-    std::vector<double> to(axes, one_of(random, 2) ? 0 : 4);
-    to[0] = one_of(random, 3) ? 0 : 2 * radius;
+    std::vector<double> to(axes, one_in(random, 2) ? 0 : 4);
+    to[0] = one_in(random, 3) ? 0 : 2 * radius;
     to[1] = 0;
     const ArcPath arc(shape, from, to);
     times.add_arc(arc, {0, 1}, to, feed);
@@ -133,7 +127,7 @@ std::string times_of(std::uint32_t number) {
     Random random(number);
     const std::size_t axes = 1 + random() % 3;
     BlockTimes times(draw_machine_with(random, axes));
-    const std::uint32_t blocks = 1 + static_cast<std::uint32_t>(below(random, 60));
+    const std::uint32_t blocks = 1 + static_cast<std::uint32_t>(draw_below(random, 60));
     RecordedText text;
     for (std::uint32_t n = 0; n < blocks; ++n) {
         add_block(random, axes, times);
@@ -141,7 +135,7 @@ std::string times_of(std::uint32_t number) {
     }
     times.add_rest();
     for (std::uint32_t n = 0; n <= blocks; ++n) {
-        text.line(times.seconds_from({n, {}}), times.seconds_from({n, Displacement::steps(below(random, 4))}));
+        text.line(times.seconds_from({n, {}}), times.seconds_from({n, Displacement::steps(draw_below(random, 4))}));
     }
     return text.text();
 }

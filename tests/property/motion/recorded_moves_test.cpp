@@ -7,6 +7,7 @@
 #include "core/axis/following/frame_check.hpp"
 #include "core/motion/ideal.hpp"
 #include "core/motion/interpolate.hpp"
+#include "tests/property/draw_below.hpp"
 #include "tests/property/motion/random_move.hpp"
 #include "tests/property/recorded_hashes.hpp"
 #include "tests/property/recorded_text.hpp"
@@ -17,11 +18,6 @@ namespace {
 constexpr std::uint32_t kRecordedMoves = 1'500;
 constexpr std::uint32_t kProfiles = 2'000;
 constexpr std::uint32_t kTracks = 1'500;
-
-std::int64_t draw_below(Random& random, std::int64_t n) {
-    return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(n));
-}
-bool one_in(Random& random, std::int64_t n) { return draw_below(random, n) == 0; }
 
 void record(RecordedText& text, const PathLimits& limits) {
     text.line(limits.start_velocity, limits.max_velocity, limits.max_acceleration, limits.max_deceleration);

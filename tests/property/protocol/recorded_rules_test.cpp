@@ -1,6 +1,5 @@
 // The rules of the protocol, at every slot around each of their limits, and what the parts that apply them answer to
 // messages in any order, stay as recorded. To write the files: LOCKSTEP_WRITE_HASHES=1 build/bin/property_protocol
-#include <random>
 
 #include "core/axis/following/owner_link.hpp"
 #include "core/protocol/frame_room.hpp"
@@ -9,6 +8,7 @@
 #include "core/protocol/rival.hpp"
 #include "core/protocol/second_process.hpp"
 #include "core/protocol/slot_gate.hpp"
+#include "tests/property/draw_below.hpp"
 #include "tests/property/recorded_hashes.hpp"
 #include "tests/property/recorded_text.hpp"
 
@@ -18,20 +18,14 @@ namespace {
 constexpr std::uint32_t kTimings = 150;
 constexpr std::uint32_t kSequences = 400;
 
-using Random = std::mt19937_64;
-
-std::int64_t below(Random& random, std::int64_t n) {
-    return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(n));
-}
-
 ProtocolTiming timing_of(std::uint32_t number) {
     Random random(number);
-    ProtocolTiming t{.slot_us = 100 * (1 + below(random, 200))};
-    t.stall_slots = static_cast<int>(below(random, 30));
-    t.late_check_slots = static_cast<int>(below(random, t.stall_slots + 1));
-    t.freshness_slots = t.stall_slots + 1 + static_cast<int>(below(random, 3));
-    t.send_ahead_slots = t.send_deadline_slots() + t.stall_slots + 1 + static_cast<int>(below(random, 20));
-    t.frame_slots = 1 + static_cast<int>(below(random, 12));
+    ProtocolTiming t{.slot_us = 100 * (1 + draw_below(random, 200))};
+    t.stall_slots = static_cast<int>(draw_below(random, 30));
+    t.late_check_slots = static_cast<int>(draw_below(random, t.stall_slots + 1));
+    t.freshness_slots = t.stall_slots + 1 + static_cast<int>(draw_below(random, 3));
+    t.send_ahead_slots = t.send_deadline_slots() + t.stall_slots + 1 + static_cast<int>(draw_below(random, 20));
+    t.frame_slots = 1 + static_cast<int>(draw_below(random, 12));
     return t;
 }
 
@@ -87,15 +81,15 @@ std::string owners_of(std::uint32_t number) {
     RecordedText text;
     Slot now = 1;
     for (int k = 0; k < 120; ++k) {
-        const bool is_silent = below(random, 12) == 0;
-        now += is_silent ? rules::silence_slots(t) + below(random, 5) - 2 : below(random, 3);
+        const bool is_silent = draw_below(random, 12) == 0;
+        now += is_silent ? rules::silence_slots(t) + draw_below(random, 5) - 2 : draw_below(random, 3);
         text.line(link.receives_owner(now), gate.next(now), gate.missed(now));
         text.line(gate.enter(now));
-        if (below(random, 20) == 0) { link.forgive(below(random, 4)); }
-        MachineState state{.term = {static_cast<std::uint64_t>(1 + below(random, 3)), 5}, .stamp = now};
-        state.stamp -= below(random, 8) == 0 ? below(random, 2 * rules::silence_slots(t)) : 0;
-        state.phase = static_cast<MachinePhase>(below(random, 10));
-        text.line(link.take(state, now, below(random, 4) != 0));
+        if (draw_below(random, 20) == 0) { link.forgive(draw_below(random, 4)); }
+        MachineState state{.term = {static_cast<std::uint64_t>(1 + draw_below(random, 3)), 5}, .stamp = now};
+        state.stamp -= draw_below(random, 8) == 0 ? draw_below(random, 2 * rules::silence_slots(t)) : 0;
+        state.phase = static_cast<MachinePhase>(draw_below(random, 10));
+        text.line(link.take(state, now, draw_below(random, 4) != 0));
         text.line(link.term().number, link.is_from_owner(state.term), link.receives_owner(now));
     }
     return text.text();
@@ -110,21 +104,21 @@ std::string peers_of(std::uint32_t number) {
     SecondProcess second(t);
     PeerEvidence evidence;
     RecordedText text;
-    Tick now{5000 + (number % 2 == 0 ? 4000 + below(random, 2000) : 0)};
+    Tick now{5000 + (number % 2 == 0 ? 4000 + draw_below(random, 2000) : 0)};
     Slot slot = 1000;
-    const auto other = static_cast<Identity>(99 + below(random, 2) * 2);
+    const auto other = static_cast<Identity>(99 + draw_below(random, 2) * 2);
     for (int k = 0; k < 200; ++k) {
-        now += Ticks{below(random, 100)};
-        slot += below(random, 3);
-        const Identity heard = other + (below(random, 60) == 0 ? 10 : 0);
-        const Slot late = below(random, 6) == 0 ? below(random, rules::silence_slots(t) + 3) : 0;
-        const Slot early = below(random, 6) == 0 ? below(random, 4) : 0;
+        now += Ticks{draw_below(random, 100)};
+        slot += draw_below(random, 3);
+        const Identity heard = other + (draw_below(random, 60) == 0 ? 10 : 0);
+        const Slot late = draw_below(random, 6) == 0 ? draw_below(random, rules::silence_slots(t) + 3) : 0;
+        const Slot early = draw_below(random, 6) == 0 ? draw_below(random, 4) : 0;
         const Slot stamp = slot - late + early;
         const bool proved = second.proves(heard, stamp, slot);
         text.line(proved, rivals.front().must_leave(heard, proved, now));
-        const Epoch epoch = below(random, 10) == 0 ? 8 : 7;
-        evidence.receive(stamp, epoch, static_cast<FrameNumber>(below(random, 4)));
-        text.line(evidence.holds(7, 2, stamp + t.lease_slots() + below(random, 3) - 1, t));
+        const Epoch epoch = draw_below(random, 10) == 0 ? 8 : 7;
+        evidence.receive(stamp, epoch, static_cast<FrameNumber>(draw_below(random, 4)));
+        text.line(evidence.holds(7, 2, stamp + t.lease_slots() + draw_below(random, 3) - 1, t));
     }
     return text.text();
 }
@@ -132,7 +126,7 @@ std::string peers_of(std::uint32_t number) {
 std::string receptions_of(std::uint32_t number) {
     constexpr std::int64_t kTick_ns = 1'000'000;
     Random random(number);
-    ReceptionWatch watch(Ticks{1000 * (1 + below(random, 10))}, kTick_ns);
+    ReceptionWatch watch(Ticks{1000 * (1 + draw_below(random, 10))}, kTick_ns);
     std::vector<TopicReception> topics(2);
     RecordedText text;
     Tick now{1};
@@ -140,20 +134,20 @@ std::string receptions_of(std::uint32_t number) {
     bool silent = false, missing = false, unreceived = false, discards = false;
     for (int k = 0; k < 300; ++k) {
         if (lasts-- <= 0) {
-            lasts = below(random, 40);
-            silent = below(random, 3) == 0;
-            missing = below(random, 3) == 0;
-            unreceived = below(random, 3) == 0;
-            discards = below(random, 3) == 0;
+            lasts = draw_below(random, 40);
+            silent = draw_below(random, 3) == 0;
+            missing = draw_below(random, 3) == 0;
+            unreceived = draw_below(random, 3) == 0;
+            discards = draw_below(random, 3) == 0;
         }
-        now += Ticks{100 + below(random, 4000)};
+        now += Ticks{100 + draw_below(random, 4000)};
         if (!watch.is_due(now)) {
             text.line("early");
             continue;
         }
         for (TopicReception& topic : topics) { (discards ? topic.discarded : topic.received) += random() % 3; }
-        Reception reception{{}, silent, missing, unreceived, below(random, 5) != 0, topics};
-        if (below(random, 50) == 0) { reception.change = static_cast<ReopenReason>(below(random, 2)); }
+        Reception reception{{}, silent, missing, unreceived, draw_below(random, 5) != 0, topics};
+        if (draw_below(random, 50) == 0) { reception.change = static_cast<ReopenReason>(draw_below(random, 2)); }
         const auto why = watch.look(now, reception);
         text.line(why, why ? text_of(*why) : "");
     }
