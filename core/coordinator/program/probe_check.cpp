@@ -21,15 +21,15 @@ double seconds_until_braking(const MachineConfig& machine, const InputConfig& in
     return input.debounce_ms * 1e-3 + slots * static_cast<double>(machine.timing.slot_us) * 1e-6;
 }
 
-/// The acceleration along a straight move that no axis's limit forbids.
-double acceleration_of(const ProgramMove& move, const MachineConfig& machine, std::span<const std::size_t> axes,
+/// The deceleration along a straight move that no axis's limit forbids.
+double deceleration_of(const ProgramMove& move, const MachineConfig& machine, std::span<const std::size_t> axes,
                        std::span<const double> from_mm) {
     double length = 0;
     for (std::size_t i = 0; i < axes.size(); ++i) { length = std::hypot(length, move.target_mm[i] - from_mm[i]); }
     double most = std::numeric_limits<double>::max();
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const double share = std::abs(move.target_mm[i] - from_mm[i]) / length;
-        if (share > 0) { most = std::min(most, machine.axes[axes[i]].max_accel_mm_s2 / share); }
+        if (share > 0) { most = std::min(most, machine.axes[axes[i]].max_decel_mm_s2 / share); }
     }
     return most;
 }
@@ -43,11 +43,11 @@ double greatest_override(const ProgramMove& move) { return move.is_feed_fixed ? 
 
 std::expected<void, PlanError> check_overshoot(const Block& block, const ProgramMove& move,
                                                const MachineConfig& machine, const InputConfig& input,
-                                               double acceleration_mm_s2) {
+                                               double deceleration_mm_s2) {
     const double by = greatest_override(move);
-    const double behind = overshoot_mm(machine, input, move.feed_mm_s * by, acceleration_mm_s2);
+    const double behind = overshoot_mm(machine, input, move.feed_mm_s * by, deceleration_mm_s2);
     if (behind <= input.max_overshoot_mm) { return {}; }
-    const double most = greatest_probing_feed_mm_s(machine, input, acceleration_mm_s2) / by;
+    const double most = greatest_probing_feed_mm_s(machine, input, deceleration_mm_s2) / by;
     return refuse(block, "with F" + rounded(move.feed_mm_s * 60) + (by > 1 ? " and the greatest feed override" : "") +
                              " this probing move may go on for " + rounded(behind) +
                              " mm behind the touch, and max_overshoot_mm of input " + input.name + " is " +
@@ -59,14 +59,14 @@ std::expected<void, PlanError> check_overshoot(const Block& block, const Program
 }  // namespace
 
 double overshoot_mm(const MachineConfig& machine, const InputConfig& input, double feed_mm_s,
-                    double acceleration_mm_s2) {
-    return feed_mm_s * seconds_until_braking(machine, input) + feed_mm_s * feed_mm_s / (2 * acceleration_mm_s2);
+                    double deceleration_mm_s2) {
+    return feed_mm_s * seconds_until_braking(machine, input) + feed_mm_s * feed_mm_s / (2 * deceleration_mm_s2);
 }
 
 /// The positive root of v^2 / 2a + v t = s.
-double greatest_probing_feed_mm_s(const MachineConfig& machine, const InputConfig& input, double acceleration_mm_s2) {
-    const double gained = acceleration_mm_s2 * seconds_until_braking(machine, input);
-    return std::sqrt(gained * gained + 2 * acceleration_mm_s2 * input.max_overshoot_mm) - gained;
+double greatest_probing_feed_mm_s(const MachineConfig& machine, const InputConfig& input, double deceleration_mm_s2) {
+    const double gained = deceleration_mm_s2 * seconds_until_braking(machine, input);
+    return std::sqrt(gained * gained + 2 * deceleration_mm_s2 * input.max_overshoot_mm) - gained;
 }
 
 Slot slots_until_known(const InputConfig& input, const MachineConfig& machine) {
@@ -91,7 +91,7 @@ std::expected<void, PlanError> ProbeCheck::next(const Block& block, const Machin
     }
     has_moved_ = true;
     const InputConfig& input = *touch_input_numbered(machine.inputs, probe_->input);
-    return check_overshoot(block, *move, machine, input, acceleration_of(*move, machine, axes, from_mm));
+    return check_overshoot(block, *move, machine, input, deceleration_of(*move, machine, axes, from_mm));
 }
 
 }  // namespace lockstep

@@ -14,12 +14,12 @@ namespace lockstep {
 /// How far a move may go on behind a touch, in mm. From the touch on, its speed is kept for at most the debounce of the
 /// input, two slots until the axis's state carries the veto, a stall of its process, the lease, and a frame
 /// (docs/protocol.md). Then the tail brakes it.
-/// `feed_mm_s`: along the move; `acceleration_mm_s2`: at which it can brake.
+/// `feed_mm_s`: along the move; `deceleration_mm_s2`: at which it can brake.
 double overshoot_mm(const MachineConfig& machine, const InputConfig& input, double feed_mm_s,
-                    double acceleration_mm_s2);
+                    double deceleration_mm_s2);
 
 /// The greatest feed for which overshoot_mm() is at most max_overshoot_mm.
-double greatest_probing_feed_mm_s(const MachineConfig& machine, const InputConfig& input, double acceleration_mm_s2);
+double greatest_probing_feed_mm_s(const MachineConfig& machine, const InputConfig& input, double deceleration_mm_s2);
 
 /// Within so many slots every change of an input is known from the states of its axis: the input follows its pin, the
 /// device is read, the axis decides, publishes, and its state arrives.

@@ -19,8 +19,8 @@ bool is_of_delta(const AxisConfig& axis, const MachineConfig& machine) {
 void check_overshoot(const MachineConfig& machine, const AxisConfig& axis, const InputConfig& input,
                      ProblemList& problems) {
     const double speed = axis.homing.search_velocity_mm_s;
-    const double behind = overshoot_mm(machine, input, speed, axis.max_accel_mm_s2);
-    const double most = greatest_probing_feed_mm_s(machine, input, axis.max_accel_mm_s2);
+    const double behind = overshoot_mm(machine, input, speed, axis.max_decel_mm_s2);
+    const double most = greatest_probing_feed_mm_s(machine, input, axis.max_decel_mm_s2);
     problems.require(
         behind <= input.max_overshoot_mm, "homing.search_velocity_mm_s",
         fmt::format("homing.search_velocity_mm_s is {}, with which the axis may go on for {} mm behind its switch, and "

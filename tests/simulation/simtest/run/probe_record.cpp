@@ -31,15 +31,15 @@ std::int64_t count_before(const Recording& recording, const JobRecord& job, std:
 void measure(const Bench& bench, double feed_mm_s, const Counts& at, ProbeRecord& record) {
     const MachineConfig& machine = bench.machine();
     const Counts rest = bench.axes_at(at);
-    double most_accel = std::numeric_limits<double>::max();
+    double most_decel = std::numeric_limits<double>::max();
     double steps_mm = 0;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const double mm = static_cast<double>(rest[i]) / machine.axes[i].steps_per_mm - record.result.places_mm[i];
         record.went_on_mm = std::hypot(record.went_on_mm, mm);
         steps_mm += 2 * bench.kinematics().step_mm(i);
-        most_accel = std::min(most_accel, machine.axes[i].max_accel_mm_s2);
+        most_decel = std::min(most_decel, machine.axes[i].max_decel_mm_s2);
     }
-    record.most_mm = overshoot_mm(machine, machine.inputs.back(), feed_mm_s, most_accel) + steps_mm;
+    record.most_mm = overshoot_mm(machine, machine.inputs.back(), feed_mm_s, most_decel) + steps_mm;
 }
 
 }  // namespace
