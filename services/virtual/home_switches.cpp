@@ -1,6 +1,8 @@
 #include "services/virtual/home_switches.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace lockstep {
 
@@ -22,11 +24,21 @@ void HomeSwitches::follow(const std::vector<double>& motors_mm, const std::funct
         motors.push_back(Position::steps(to_steps(kinematics_.motors()[m], motors_mm[m])));
     }
     for (Switch& one : switches_) {
-        const double at = kinematics_.axis_steps(one.axis, motors);
+        const double at = one.axis_steps = kinematics_.axis_steps(one.axis, motors);
         const bool is_closed = one.toward_min ? at <= one.at_steps : at >= one.at_steps;
         if (is_closed != one.is_closed) { set(one.input, is_closed); }
         one.is_closed = is_closed;
     }
+}
+
+bool HomeSwitches::may_change_next() {
+    constexpr double kLeast_steps = 2;
+    bool may_change = false;
+    for (Switch& one : switches_) {
+        const double way = std::abs(one.axis_steps - std::exchange(one.begun_at_steps, one.axis_steps));
+        may_change |= std::abs(one.axis_steps - one.at_steps) <= 3 * way + kLeast_steps;
+    }
+    return may_change;
 }
 
 }  // namespace lockstep

@@ -17,6 +17,9 @@ public:
     bool none() const { return switches_.empty(); }
     /// Calls set(input, closed) for each switch that changes while the slides of the motors are at these places, in mm.
     void follow(const std::vector<double>& motors_mm, const std::function<void(std::size_t, bool)>& set);
+    /// Call it after each interval of motion. Returns whether a switch may change in the next one, in which an axis
+    /// goes at most three times as far.
+    bool may_change_next();
 
 private:
     struct Switch {
@@ -25,6 +28,8 @@ private:
         double at_steps = 0;
         bool toward_min = true;
         bool is_closed = false;
+        double axis_steps = 0;  // its place now, and at the begin of the interval
+        double begun_at_steps = 0;
     };
 
     Kinematics kinematics_;

@@ -83,8 +83,18 @@ void VirtualDevices::set_input(std::size_t input, bool closed, Tick now) {
     lockstep::set_input((*this)[motor].plant(), config, closed);
 }
 
+/// An axis that searches its switch goes a small part of a step in kLook. Only where a switch may change, so many times
+/// are looked at.
 void VirtualDevices::follow_switches(Tick now) {
     if (switches_.none()) { return; }
+    constexpr Ticks kLook{16};
+    for (Tick at = followed_ + kLook; may_change_ && at < now; at += kLook) { follow_switches_at(at); }
+    follow_switches_at(now);
+    followed_ = now;
+    may_change_ = switches_.may_change_next();
+}
+
+void VirtualDevices::follow_switches_at(Tick now) {
     std::vector<double> motors_mm;
     for (std::size_t i = 0; i < devices_.size(); ++i) {
         advance(i, now);

@@ -39,7 +39,7 @@ public:
     void end(const VirtualFault& fault, Tick now) { apply(fault, false, now); }
     /// Closes or opens an input of the machine, by its number there.
     void set_input(std::size_t input, bool closed, Tick now);
-    /// The switches of axes that home by touch follow these.
+    /// The switches of axes that home by touch follow these, to 16 ticks.
     void follow_switches(Tick now);
 
 private:
@@ -52,6 +52,7 @@ private:
         bool is_gone = false;
     };
     void deliver(std::size_t axis, Tick now);
+    void follow_switches_at(Tick now);
     void power_up(std::size_t axis, const RegisterWindow& window, Plant plant, Tick now);
     void apply(const VirtualFault& fault, bool begins, Tick now);
     void disturb(const VirtualFault& fault, bool begins);
@@ -64,6 +65,8 @@ private:
     std::uint64_t seed_;
     std::vector<Device> devices_;
     HomeSwitches switches_;
+    Tick followed_;  // by switches_
+    bool may_change_ = true;
 };
 
 }  // namespace lockstep
