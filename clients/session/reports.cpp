@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "clients/session/health_report.hpp"
+#include "clients/session/homing/homing_report.hpp"
 #include "clients/session/inputs/input_report.hpp"
 #include "clients/session/outputs/output_report.hpp"
 #include "clients/text/format.hpp"
@@ -269,7 +270,9 @@ proto::StatusReport status_report(const Session& session) {
     const auto state_of = [&](std::size_t motor) {
         return session.received().motor(motor) ? &session.received().motor(motor)->state : nullptr;
     };
-    add_outputs(machine, state_of, session.state() ? &session.state()->state : nullptr, report);
+    const MachineState* const state = session.state() ? &session.state()->state : nullptr;
+    add_homing(machine, session.received().kinematics(), state_of, state, report);
+    add_outputs(machine, state_of, state, report);
     return report;
 }
 

@@ -207,18 +207,6 @@ std::string progress_text(const proto::StatusReport& status) {
     return status.phase() + done + job_parts(status, ", ");
 }
 
-std::string homing_text(const proto::StatusReport& status) {
-    std::string text;
-    for (const proto::AxisStatus* const axis : rows_of(status)) {
-        if (axis->board()) { continue; }
-        const std::string state = axis->homed()     ? "homed at " + fixed(axis->position_mm(), 3)
-                                  : axis->present() ? axis->state()
-                                                    : "not received";
-        text += (text.empty() ? "" : "   ") + axis->name() + " " + state;
-    }
-    return text;
-}
-
 std::string unhomed_text(const proto::StatusReport& status) {
     std::string names;
     for (const proto::AxisStatus* const axis : rows_of(status)) {

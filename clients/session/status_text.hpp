@@ -24,8 +24,6 @@ std::string paused_text(const proto::PauseReport& pause);
 std::string progress_bar(const proto::StatusReport& status);
 /// One line without the bar: "Running: 30 %, line 12, 4.2 s left".
 std::string progress_text(const proto::StatusReport& status);
-/// One line: "X homed at 12.000   Y Initialize"; an axis that is not homed has no known position.
-std::string homing_text(const proto::StatusReport& status);
 /// "not homed: X, Y; home: lockstep home"; empty if every axis is homed.
 std::string unhomed_text(const proto::StatusReport& status);
 /// "X 12.000  Y 3.250", of final positions.

@@ -271,6 +271,7 @@ AxisState AxisController::state(const AxisLoop& loop, Ticks clock_error) const {
             .hears_owner = owner_.receives_owner(loop.slot),
             .unproved = condition_.position.unproved(),
             .switches = {device.limit_min, device.limit_max, device.home},
+            .homing = own_.homing_stage(),
             .inputs = device.inputs,
             .outputs = device.outputs,
             .pulses_left = device.pulses_left,

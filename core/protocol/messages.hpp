@@ -16,6 +16,7 @@
 #include "core/pause.hpp"
 #include "core/program.hpp"
 #include "core/program_devices.hpp"
+#include "core/protocol/homing_stage.hpp"
 #include "core/protocol/lease_holder.hpp"
 #include "core/protocol/process_counts.hpp"
 #include "core/protocol/record_counts.hpp"
@@ -145,11 +146,12 @@ struct AxisState {
     bool hears_owner = false;                   // it received its owner within silence_slots
     FaultCode unproved = FaultCode::None;       // why it did not know its position at its start; None: it knows it now
     Switches switches;
-    std::uint32_t inputs = 0;         // all closed inputs of its device; input n is bit n
-    std::uint16_t outputs = 0;        // all digital outputs of its device that are on; output n is bit n
-    std::uint32_t pulses_left = 0;    // of the newest places at its device: so many were not made, so far
-    AnalogLevels analog{};            // what the analog outputs of its device show
-    std::optional<EpochTouch> touch;  // of the newest epoch, if it ends at an input of this device
+    HomingStage homing = HomingStage::Idle;  // of an axis that homes by itself. For people: no decision depends on it
+    std::uint32_t inputs = 0;                // all closed inputs of its device; input n is bit n
+    std::uint16_t outputs = 0;               // all digital outputs of its device that are on; output n is bit n
+    std::uint32_t pulses_left = 0;           // of the newest places at its device: so many were not made, so far
+    AnalogLevels analog{};                   // what the analog outputs of its device show
+    std::optional<EpochTouch> touch;         // of the newest epoch, if it ends at an input of this device
     bool operator==(const AxisState&) const = default;
 };
 
@@ -249,6 +251,13 @@ struct ProbeResult {
     bool operator==(const ProbeResult&) const = default;
 };
 
+/// The axis that moves of all axes home, and how far.
+struct HomedByTouch {
+    std::uint32_t axis = 0;
+    HomingStage stage = HomingStage::Idle;
+    bool operator==(const HomedByTouch&) const = default;
+};
+
 /// The state of the machine that the coordinator publishes once a slot. It also carries the coordinator's veto.
 struct MachineState {
     Term term;  // Standby: the highest number known, and the standby's identity
@@ -283,6 +292,7 @@ struct MachineState {
     std::uint32_t events_from = 0;             // the events of the program before this block have been published
     StaticVector<FrameRest, kMaxRests> rests;  // of the frames of the epoch that may be the last one run, in order
     // For people and for checks of the record. No decision depends on it:
+    std::optional<HomedByTouch> homing;
     RecordCounts published;          // record messages published by this process
     std::uint64_t lost_records = 0;  // record messages that it could not write
     ProcessCounts process;           // of this process

@@ -24,6 +24,12 @@ constexpr std::string_view name_of(AxisPhase phase) {
         phase);
 }
 
+/// As logs and reports name them.
+constexpr std::string_view name_of(HomingStage stage) {
+    return detail::pick_name(std::array<std::string_view, 6>{"idle", "search", "pull-off", "latch", "park", "release"},
+                             stage);
+}
+
 constexpr std::string_view name_of(MachinePhase phase) {
     return detail::pick_name(std::array<std::string_view, 10>{"Waiting", "Idle", "Homing", "Running", "Holding",
                                                               "Paused", "Stopping", "Fault", "Standby", "Jogging"},

@@ -15,11 +15,6 @@ std::string remedy(FaultCode fault) {
     return text == nullptr ? std::string() : std::string(text->cause) + "; " + remedy_text(*text);
 }
 
-std::string_view stage_name(std::uint64_t stage) {
-    constexpr std::array<std::string_view, 6> kNames{"ended", "search", "pull off", "latch", "park", "release"};
-    return stage < kNames.size() ? kNames[stage] : "unknown";
-}
-
 std::string what_of(const AxisNotice& fault) {
     return fault.fault == FaultCode::FollowingError ? fmt::format("{} steps differ: ", fault.number) : "";
 }
@@ -40,7 +35,7 @@ void log_notice(const AxisNotice& notice) {
                              remedy(notice.fault));
         case Kind::Vetoed: return log_info("frame {} and those after it are vetoed", notice.number);
         case Kind::Touched: return log_info("the probe touched at tick {}", notice.number);
-        case Kind::HomingStage: return log_info("homing: {}", stage_name(notice.number));
+        case Kind::HomingStage: return log_info("homing: {}", name_of(static_cast<HomingStage>(notice.number)));
         case Kind::Homed: return log_info("homed and parked");
         case Kind::Fault: return log_event(spdlog::level::err, notice.fault, what_of(notice) + remedy(notice.fault));
         case Kind::Reset: return log_info("reset");

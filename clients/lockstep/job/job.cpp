@@ -238,7 +238,7 @@ ExitCode run_job(Session& session, const Job& job, Output& output) {
         if (job.detach) { return end_begun(job, report, output); }
         output.print(fmt::format("{}: job {}{}", title(job), reply->job,
                                  job.planned_s ? ", planned to take " + duration_text(*job.planned_s) : ""));
-        watch.emplace(session, reply->job, job.command, output, stop, hang_up);
+        watch.emplace(session, reply->job, job.command, job.axes, output, stop, hang_up);
         const auto part = watch->wait();
         if (!part) { return output.fail(part.error()); }
         if (job.stream != nullptr) { report_stream(session, job, output); }

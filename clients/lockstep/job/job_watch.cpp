@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "clients/session/homing/homing_report.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/session/status_text.hpp"
 #include "clients/session/waits.hpp"
@@ -19,11 +20,12 @@ constexpr std::chrono::seconds kRestPatience{10};
 
 }  // namespace
 
-JobWatch::JobWatch(Session& session, std::uint64_t number, CommandKind command, Output& output, const StopSignal& stop,
-                   const HangUp& hang_up)
+JobWatch::JobWatch(Session& session, std::uint64_t number, CommandKind command, AxisSet axes, Output& output,
+                   const StopSignal& stop, const HangUp& hang_up)
     : session_(session),
       number_(number),
       command_(command),
+      axes_(axes),
       output_(output),
       stop_(stop),
       hang_up_(hang_up),
@@ -147,7 +149,7 @@ void JobWatch::print_pause(const MachineState& state, const std::string& at_line
 
 void JobWatch::print_progress() {
     const proto::StatusReport status = status_report(session_);
-    if (command_ == CommandKind::Home) { return output_.progress(homing_text(status)); }
+    if (command_ == CommandKind::Home) { return output_.progress(homing_text(status, axes_)); }
     output_.progress(output_.is_terminal() ? progress_bar(status) : progress_text(status));
 }
 

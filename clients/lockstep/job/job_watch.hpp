@@ -17,9 +17,9 @@ namespace lockstep {
 
 class JobWatch {
 public:
-    /// `number`: the job's number, from the reply to `command`.
-    JobWatch(Session& session, std::uint64_t number, CommandKind command, Output& output, const StopSignal& stop,
-             const HangUp& hang_up);
+    /// `number`: the job's number, from the reply to `command`. `axes`: that home; 0: all.
+    JobWatch(Session& session, std::uint64_t number, CommandKind command, AxisSet axes, Output& output,
+             const StopSignal& stop, const HangUp& hang_up);
 
     /// A stop signal stops the machine on its path. A closed terminal holds the machine, or stops it if the job cannot
     /// be held. Then wait() waits for rest, with a limit. Fails if the coordinator fell silent or refused the stop, or
@@ -44,6 +44,7 @@ private:
     Session& session_;
     std::uint64_t number_;
     CommandKind command_;
+    AxisSet axes_;
     Output& output_;
     const StopSignal& stop_;
     const HangUp& hang_up_;

@@ -13,10 +13,9 @@
 #include "core/axis/device/device.hpp"
 #include "core/faults.hpp"
 #include "core/kinematics/motors.hpp"
+#include "core/protocol/homing_stage.hpp"
 
 namespace lockstep {
-
-enum class HomingStage : std::uint8_t { Idle, Search, PullOff, Latch, Park, Release };
 
 /// One move of an axis on its own, in steps from where it stands.
 struct LocalMove {

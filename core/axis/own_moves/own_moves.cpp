@@ -181,9 +181,10 @@ void OwnMoves::end(AxisLoop& loop) {
     }
     const auto rest = ended.is_jog() ? std::nullopt : ended.rest(device);
     if (rest) { return go_on(*rest, ended.tries_of_rest(device), loop); }
-    if (parks || !is_homing()) { phases.happen(AxisEvent::MotionEnds); }
+    const bool is_homing = homing_stage() != HomingStage::Idle;
+    if (parks || !is_homing) { phases.happen(AxisEvent::MotionEnds); }
     if (parks && ended.is_halted()) { lose_zero_outside_travel(loop); }
-    if (!is_homing()) { return end_order(loop); }
+    if (!is_homing) { return end_order(loop); }
     take_homing_step(homing_.next({.by_trigger = device.stopped_by_trigger,
                                    .by_limit = device.stopped_by_limit,
                                    .home_closed = device.home,

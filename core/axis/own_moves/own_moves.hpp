@@ -36,6 +36,7 @@ public:
     void end(AxisLoop& loop);
     /// Gives up the order in progress. May be called at any time.
     void abandon();
+    HomingStage homing_stage() const { return homing_.stage(); }
 
 private:
     FaultCode refusal_of(const AxisCommand& order, std::int64_t steps, bool is_resting, const AxisLoop& loop) const;
@@ -47,7 +48,6 @@ private:
     void go_on(const LocalMove& rest, int tries, AxisLoop& loop);
     void lose_zero_outside_travel(AxisLoop& loop) const;
     void end_order(AxisLoop& loop);
-    bool is_homing() const { return homing_.stage() != HomingStage::Idle; }
     void take_homing_step(const HomingStep& step, AxisLoop& loop);
     void take_zero(const HomingStep& step, AxisLoop& loop);
 

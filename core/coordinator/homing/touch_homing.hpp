@@ -24,6 +24,7 @@ public:
     TouchHoming(std::size_t axis, const MachineConfig& machine);
 
     std::size_t axis() const { return axis_; }
+    HomingStage stage() const { return homing_.stage(); }
 
     enum class Next : std::uint8_t {
         Wait,    // until it is known whether the switch is closed

@@ -176,6 +176,14 @@ void note_progress(JobLifecycle& jobs, const LoopView& loop) {
     if (path != nullptr) { jobs.path().note_progress(path->task, loop); }
 }
 
+std::optional<HomedByTouch> homed_by_touch(const MachineActivity& activity) {
+    const auto* homing = activity.as<activity::Homing>();
+    const auto* const moving = activity.as<activity::OnPath>();
+    if (moving != nullptr && moving->homing) { homing = &*moving->homing; }
+    if (homing == nullptr || !homing->touch) { return std::nullopt; }
+    return HomedByTouch{static_cast<std::uint32_t>(homing->touch->axis()), homing->touch->stage()};
+}
+
 void report_job(const JobLifecycle& jobs, MachineState& state, const LoopView& loop) {
     const MachineActivity& activity = jobs.activity();
     const JobCount& count = jobs.count();
@@ -202,6 +210,7 @@ void report_job(const JobLifecycle& jobs, MachineState& state, const LoopView& l
     if (const auto* const moving = activity.as<activity::OnPath>()) {
         report_on_path(*moving, jobs.path(), state, loop);
     }
+    state.homing = homed_by_touch(activity);
 }
 
 }  // namespace lockstep

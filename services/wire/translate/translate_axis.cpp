@@ -66,6 +66,7 @@ lockstep_wire_AxisState to_wire(const AxisState& state) {
                                     .switches = to_bits(state.switches),
                                     .inputs = state.inputs,
                                     .outputs = state.outputs,
+                                    .homing = static_cast<std::uint16_t>(state.homing),
                                     .pulses_left = state.pulses_left,
                                     .analog = {},
                                     .has_touch = state.touch.has_value(),
@@ -87,6 +88,7 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
     check.far("touch_tick", wire.touch_tick);
     check.within<std::int64_t>("clock_error_ticks", wire.clock_error_ticks, 0, kLongestClockError);
     const AxisPhase phase = check.choice("phase", wire.phase, AxisPhase::Fault);
+    check.within("homing", wire.homing, std::uint16_t{0}, static_cast<std::uint16_t>(HomingStage::Release));
     const AnalogLevels analog = analog_of(wire, check);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     return AxisState{
@@ -116,6 +118,7 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
         .switches = {.limit_min = (wire.switches & kLimitMinBit) != 0,
                      .limit_max = (wire.switches & kLimitMaxBit) != 0,
                      .home = (wire.switches & kHomeBit) != 0},
+        .homing = static_cast<HomingStage>(wire.homing),
         .inputs = wire.inputs,
         .outputs = wire.outputs,
         .pulses_left = wire.pulses_left,

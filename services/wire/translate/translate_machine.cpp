@@ -125,6 +125,13 @@ ProgramDevices devices_from_wire(const lockstep_wire_MachineState& wire, Checks&
             .pulses = pulses_from_wire(wire, check)};
 }
 
+std::optional<HomedByTouch> homing_from_wire(const lockstep_wire_MachineState& wire, Checks& check) {
+    check.within<std::size_t>("homing_axis", wire.homing_axis, 0, kMaxAxes - 1);
+    check.within("homing_stage", wire.homing_stage, std::uint16_t{0}, static_cast<std::uint16_t>(HomingStage::Release));
+    if (!wire.has_homing) { return std::nullopt; }
+    return HomedByTouch{wire.homing_axis, static_cast<HomingStage>(wire.homing_stage)};
+}
+
 void check_numbers(const lockstep_wire_MachineState& wire, Checks& check) {
     check.far("stamp", wire.stamp);
     check.far("tick", wire.tick);
@@ -218,7 +225,10 @@ void to_wire(const MachineState& state, MachineStateMessage& message) {
             .probe_job = 0,
             .probe_touched = false,
             .probe_tick = 0,
-            .probe_places_mm = {}};
+            .probe_places_mm = {},
+            .has_homing = state.homing.has_value(),
+            .homing_axis = state.homing.value_or(HomedByTouch{}).axis,
+            .homing_stage = static_cast<std::uint16_t>(state.homing.value_or(HomedByTouch{}).stage)};
     analog_to_wire(state.devices, message);
     if (state.probe) { probe_to_wire(*state.probe, message); }
     if (state.lease) {
@@ -247,6 +257,7 @@ std::expected<void, std::string> from_wire(const lockstep_wire_MachineState& wir
     const std::string_view writer_name = read_text("writer_name", wire.writer_name, check);
     const std::string_view writer_host = read_text("writer_host", wire.writer_host, check);
     const std::optional<ProbeResult> probe = probe_from_wire(wire, check);
+    const std::optional<HomedByTouch> homing = homing_from_wire(wire, check);
     pause_from_wire(wire, into.pause, check);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     const auto fault = static_cast<FaultCode>(wire.fault);
@@ -278,6 +289,7 @@ std::expected<void, std::string> from_wire(const lockstep_wire_MachineState& wir
             .job_kind = wire.is_run ? JobKind::Run : JobKind::Move,
             .program = if_positive(wire.program),
             .events_from = wire.events_from,
+            .homing = homing,
             .published = {.job_events = wire.job_messages, .program_parts = wire.program_messages},
             .lost_records = wire.lost_records,
             .process = {.reopened = wire.reopened, .lost_log_lines = wire.lost_log_lines}};

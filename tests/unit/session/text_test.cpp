@@ -217,10 +217,6 @@ TEST(ProgressText, IsNotFullBeforeTheEnd) {
     EXPECT_THAT(progress_bar(status), HasSubstr("[##############################] 100 %"));
 }
 
-TEST(HomingText, ShowsPositionsOnlyOfHomedAxes) {
-    EXPECT_EQ(homing_text(running()), "X homed at -5.000   Y not received");
-}
-
 TEST(Durations, AreReadable) {
     EXPECT_EQ(duration_text(8.24), "8.2 s");
     EXPECT_EQ(duration_text(59.97), "1 min 00 s");

@@ -69,6 +69,7 @@ public:
             EXPECT_TRUE(state.at_rest);
             EXPECT_EQ(state.fault, FaultCode::None);
             EXPECT_EQ(state.following_error_steps, 0) << "no step is lost";
+            EXPECT_EQ(state.homing, HomingStage::Idle);
             const bool has_zero = stage(i) == HomingStage::Park || stage(i) == HomingStage::Idle;
             EXPECT_EQ(state.homed, has_zero && is_within_travel(i))
                 << "once its zero is set, and it has left its switch";

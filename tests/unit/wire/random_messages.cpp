@@ -43,10 +43,12 @@ AxisState RandomMessages::axis_state() {
             .hears_owner = coin(),
             .unproved = fault(),
             .switches = {coin(), coin(), coin()},
+            .homing = static_cast<HomingStage>(index(6)),
             .inputs = static_cast<std::uint32_t>(bits()),
             .outputs = static_cast<std::uint16_t>(bits()),
             .pulses_left = static_cast<std::uint32_t>(bits()),
-            .analog = analog_levels()};
+            .analog = analog_levels(),
+            .touch = maybe(EpochTouch{bits(), {far()}})};
 }
 
 AxisHealth RandomMessages::axis_health() {
@@ -145,6 +147,7 @@ MachineState RandomMessages::machine_state() {
             .program = maybe(bits()),
             .events_from = static_cast<std::uint32_t>(bits()),
             .rests = rests(),
+            .homing = maybe(HomedByTouch{index(kMaxAxes), static_cast<HomingStage>(index(6))}),
             .published = {.job_events = bits(), .program_parts = bits()},
             .lost_records = bits(),
             .process = {.reopened = bits(), .lost_log_lines = bits()}};
