@@ -30,12 +30,22 @@ AxisCounts first_places(AxisSet motors, const LoopView& loop) {
     return places;
 }
 
+/// All motors of axes that have one that is not homed. The others may be at places that do not agree with it.
+AxisSet motors_without_places(const LoopView& loop) {
+    AxisSet motors = 0;
+    for (std::size_t i = 0; i < loop.machine.axes.size(); ++i) {
+        const AxisSet of_axis = loop.kinematics.motors_of_axes(axis_bit(i));
+        for (std::size_t m = 0; m < loop.axes.size(); ++m) {
+            const auto& state = loop.axes.state(m);
+            if (has_axis(of_axis, m) && state && !state->homed) { motors |= of_axis; }
+        }
+    }
+    return motors;
+}
+
 /// Every motor takes part in each frame, so all that are not homed assume places.
 void assume_places(const activity::Homing& homing, CoordinatorLoop& loop) {
-    AxisSet motors = motors_homed_by_touch(homing.sequence.axes(), loop);
-    for (std::size_t m = 0; m < loop.axes.size(); ++m) {
-        if (loop.axes.state(m) && !loop.axes.state(m)->homed) { motors |= axis_bit(m); }
-    }
+    const AxisSet motors = motors_homed_by_touch(homing.sequence.axes(), loop) | motors_without_places(loop);
     const MotorCounts places = loop.kinematics.motors_at(first_places(motors, loop));
     for (std::size_t m = 0; m < loop.axes.size(); ++m) {
         if (has_axis(motors, m)) { loop.order(m, AxisCommandKind::Assume).target_steps = places[m]; }
@@ -109,6 +119,7 @@ void advance_touch(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoop
         case TouchHoming::Next::End:
             assume_place(touch.axis(), touch.place(), loop);
             homing.by_touch &= ~axis_bit(touch.axis());
+            homing.skew.begin(loop.axes);
             return homing.touch.reset();
         case TouchHoming::Next::Fail: {
             const AxisSet motors = loop.kinematics.motors_of_axes(axis_bit(touch.axis()));
@@ -138,7 +149,11 @@ void go_on_homing(activity::Homing& homing, const PathTask& task, bool probed, J
 }
 
 void advance_homing(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    if (const auto motor = homing.skew.look(loop.axes)) { return jobs.fail({FaultCode::MotorsSkewed, *motor}, loop); }
+    if (!homing.touch) {  // frames keep the motors of an axis together, from where they are assumed to be
+        if (const auto motor = homing.skew.look(loop.axes)) {
+            return jobs.fail({FaultCode::MotorsSkewed, *motor}, loop);
+        }
+    }
     for (std::size_t i = 0; i < loop.axes.size(); ++i) {
         if (!loop.is_order_done(i)) { return; }
         const auto& order = loop.orders.newest(i);

@@ -73,6 +73,24 @@ TEST_F(HomingByTouch, AxesOfTwoBeltsFindTheirTruePlaces) {
     expect_true_places();
 }
 
+TEST_F(HomingByTouch, SaysWhichAxisIsInWhichPartOfHoming) {
+    begin_homing();
+    ASSERT_TRUE(reaches(MachinePhase::Homing, 1)) << describe();
+    std::vector<HomedByTouch> said;
+    while (vm.state()->phase == MachinePhase::Homing && vm.now().value < 60'000'000) {
+        wait(0.01);
+        const auto& now = vm.state()->homing;
+        if (now && now->stage != HomingStage::Idle && (said.empty() || said.back() != *now)) { said.push_back(*now); }
+    }
+    const auto in = [](std::size_t axis, HomingStage stage) {
+        return HomedByTouch{static_cast<std::uint32_t>(axis), stage};
+    };
+    using enum HomingStage;
+    EXPECT_THAT(said, testing::ElementsAre(in(kX, Search), in(kX, PullOff), in(kX, Latch), in(kX, Park), in(kY, Search),
+                                           in(kY, PullOff), in(kY, Latch), in(kY, Park)));
+    EXPECT_EQ(vm.state()->homing, std::nullopt);
+}
+
 TEST_F(HomingByTouch, HomesAgainFromWhereItIs) {
     expect_homed();
     expect_homed();
@@ -143,6 +161,32 @@ protected:
 TEST_F(HomingASwitchElsewhere, FindsTheTruePlace) {
     expect_homed();
     EXPECT_NEAR(static_cast<double>(counts()[kX]), 500, 1);
+}
+
+/// The switch of X is wired to one of the two motors of Y, which homes after X.
+MachineConfig beside_a_gantry() {
+    MachineConfig machine = gantry(0.5);
+    machine.axes[1].homing.sequence = 1;
+    machine.inputs = {switch_at("x_home", "Y1")};
+    put_at(machine.axes[kX], 60, "x_home");
+    return machine;
+}
+
+class HomingBesideAGantry : public HomingByTouch {
+protected:
+    HomingBesideAGantry() : HomingByTouch(beside_a_gantry()) {}
+};
+
+TEST_F(HomingBesideAGantry, WorksAgainAfterOneMotorOfItLostItsPlace) {
+    expect_homed();
+    vm.device(1).plant().push(30);  // that of Y1
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 1)) << describe();
+    EXPECT_EQ(fault(), FaultCode::FollowingError);
+    wait(0.2);
+    ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
+    ASSERT_FALSE(vm.axis_states()[1]->homed);
+    ASSERT_TRUE(vm.axis_states()[2]->homed);
+    expect_homed();
 }
 
 MachineConfig without_switch() {
