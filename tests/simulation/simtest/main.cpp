@@ -78,25 +78,9 @@ int main(int argc, char** argv) {
     parser.add_option("--runs", options.runs, "the number of runs, with consecutive seeds");
     parser.add_option("--axes", options.machine.axes, "axes of every machine; without it 1 to 6, drawn")
         .in_range(1, 32);
-    parser.add_flag("--long-searches", options.machine.long_searches,
-                    "include machines that search their switches for minutes: about twice the time");
-    parser.add_flag(
-        "--late-devices", options.machine.late_devices,
-        "about half of the devices answer after up to 5 ms and have their own clocks, in machines with slots "
-        "of 2 ms or more");
-    parser.add_flag("--motors", options.machine.motors,
-                    "machines with several motors on an axis, belts that move two axes, gears or skewed guides");
-    parser.add_flag("--deltas", options.machine.deltas, "machines whose first three axes are those of a delta");
-    parser.add_flag("--screws", options.machine.screws, "machines whose motors correct errors of their screws");
-    parser.add_flag("--inputs", options.machine.inputs,
-                    "machines with an emergency stop and a door at inputs of devices");
-    parser.add_flag("--probes", options.machine.probes,
-                    "machines with a probe at a device, which touches at any time of probing moves");
-    parser.add_flag("--outputs", options.machine.outputs,
-                    "machines with outputs that programs switch, one of them in proportion to the speed");
-    parser.add_flag("--boards", options.machine.boards,
-                    "machines with a board: a device without a motor, for some of the outputs and inputs");
-    parser.add_flag("--jogs", options.machine.jogs, "axes are also jogged, between programs");
+    for (const MachineKind::Flag& flag : kMachineFlags) {
+        parser.add_flag(flag.name, options.machine.*flag.kind, flag.help);
+    }
     parser
         .add_option("--faults", options.faults,
                     "none, all (half of the kinds in each run), or a list of the kinds below")

@@ -14,6 +14,7 @@
 #include "tests/simulation/simtest/draw/machine/draw_late_devices.hpp"
 #include "tests/simulation/simtest/draw/machine/draw_motors.hpp"
 #include "tests/simulation/simtest/draw/machine/draw_screws.hpp"
+#include "tests/simulation/simtest/draw/machine/draw_touches.hpp"
 #include "tests/simulation/simtest/draw/scenario.hpp"
 #include "tests/simulation/simtest/record/motor_shares.hpp"
 
@@ -277,6 +278,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (kind.boards && scenario.machine.coordination != StepMethod::Lai) {
         scenario.machine.boards.push_back({.name = "IO", .host = "", .device = {}});
     }
+    if (kind.touches && !kind.deltas) { scenario.machine = with_touches(seed, std::move(scenario.machine)); }
     scenario.network = draw_network(draw, faults, scenario.machine.slot_ticks());
     if (faults.clock) {
         give_clocks(draw, scenario);

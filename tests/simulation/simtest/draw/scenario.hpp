@@ -74,12 +74,40 @@ struct MachineKind {
     bool motors = false;              // axes have several motors, or share them (draw_motors.hpp)
     bool deltas = false;              // draw_delta.hpp
     bool screws = false;              // motors correct errors of screws (draw_screws.hpp); not of deltas
+    bool touches = false;             // axes home by inputs (draw_touches.hpp); not of deltas
     bool jogs = false;                // axes are jogged between programs (draw_jogs.hpp)
     bool inputs = false;              // with an emergency stop and a door (draw_inputs.hpp)
     bool probes = false;              // programs probe (draw_probes.hpp)
     bool outputs = false;             // programs switch outputs (draw_outputs.hpp)
     bool boards = false;              // with a device without a motor
+
+    /// How a command line asks for it.
+    struct Flag {
+        const char* name;
+        bool MachineKind::*kind;
+        const char* help;
+    };
 };
+
+inline constexpr auto kMachineFlags = std::to_array<MachineKind::Flag>(
+    {{"--long-searches", &MachineKind::long_searches,
+      "include machines that search their switches for minutes: about twice the time"},
+     {"--late-devices", &MachineKind::late_devices,
+      "about half of the devices answer after up to 5 ms and have their own clocks, in machines with slots of 2 ms or "
+      "more"},
+     {"--motors", &MachineKind::motors,
+      "machines with several motors on an axis, belts that move two axes, gears or skewed guides"},
+     {"--deltas", &MachineKind::deltas, "machines whose first three axes are those of a delta"},
+     {"--screws", &MachineKind::screws, "machines whose motors correct errors of their screws"},
+     {"--touches", &MachineKind::touches, "machines with axes that home by the touch of an input, at any device"},
+     {"--inputs", &MachineKind::inputs, "machines with an emergency stop and a door at inputs of devices"},
+     {"--probes", &MachineKind::probes,
+      "machines with a probe at a device, which touches at any time of probing moves"},
+     {"--outputs", &MachineKind::outputs,
+      "machines with outputs that programs switch, one of them in proportion to the speed"},
+     {"--boards", &MachineKind::boards,
+      "machines with a board: a device without a motor, for some of the outputs and inputs"},
+     {"--jogs", &MachineKind::jogs, "axes are also jogged, between programs"}});
 
 /// A command that the machine must refuse, and the reason. The machine must continue as if it had not been given.
 struct WrongCommand {

@@ -10,7 +10,8 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
     const std::int64_t encoder = vm_.device(axis).plant().encoder();
     const bool has_moved = std::exchange(encoder_[axis], encoder) != encoder || vm_.device(axis).in_motion();
     if (has_moved) { moved_[axis] = now; }
-    if (motors_[axis].homing.in_place) { note_zero(axis, out); }
+    const bool is_by_touch = has_axis(by_touch_, axis);
+    if (motors_[axis].homing.in_place && !is_by_touch) { note_zero(axis, out); }
     if (!out.state) { return; }
     const AxisState& state = *out.state;
     const std::int64_t claimed = state.position.count();
@@ -28,7 +29,8 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
     const bool is_late = recording_.motors[axis].lateness > Ticks{};
     if (is_late && state.tick - state.clock_error <= moved_[axis]) { return; }
     // The switch closes within a step of the reported position, and whole steps are off by at most half a step.
-    constexpr double kHomedWithin = 2;
+    // A motor that moves several axes adds up what the switches of these axes are off.
+    const double kHomedWithin = is_by_touch ? 4 : 2;
     const double slide = vm_.device(axis).plant().position_mm() * motors_[axis].steps_per_mm;
     if (state.homed && std::abs(slide - zero_[axis] - static_cast<double>(claimed)) > kHomedWithin) {
         object(axis, now,

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/coordinator/homing/touch_homing.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/protocol/rules.hpp"
 #include "services/virtual/virtual_machine.hpp"
@@ -18,6 +19,7 @@ public:
         : vm_(vm),
           recording_(recording),
           motors_(motors_of(vm.machine())),
+          by_touch_(Kinematics(vm.machine()).motors_of_axes(axes_homed_by_touch(~AxisSet{0}, vm.machine()))),
           pulses_(recording.motors.size(), 0),
           power_up_(recording.motors.size(), Tick{std::numeric_limits<std::int64_t>::min()}),
           has_device_(recording.motors.size(), true),
@@ -42,6 +44,7 @@ private:
     VirtualMachine& vm_;
     Recording& recording_;
     std::vector<MotorConfig> motors_;
+    AxisSet by_touch_;                  // motors that are homed by it
     std::vector<std::int64_t> pulses_;  // since the device's power-up
     std::vector<Tick> power_up_;        // in its own time
     std::vector<bool> has_device_;      // the device works, and the axis uses it

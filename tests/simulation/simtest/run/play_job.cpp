@@ -46,18 +46,29 @@ Program starting_at(const Bench& bench, const Counts& motors, Program program) {
     return program;
 }
 
-/// An upper bound of the time of a homing that has to repeat the search for a switch.
-double homing_seconds(const Bench& bench) {
+/// An upper bound of the time in which an axis, or a motor by itself, homes.
+template <typename Part>
+double homing_seconds(const Part& part, bool any_is_curved) {
     constexpr int kSearches = 4;
+    const HomingConfig& h = part.homing;
+    const double travel = part.position_max_mm - part.position_min_mm + 2 * part.plant.travel_margin_mm;
+    const double search = travel / h.search_velocity_mm_s + 20 * h.pulloff_mm / h.search_velocity_mm_s +
+                          2 * h.pulloff_mm / h.latch_velocity_mm_s;
+    const double to_park_mm_s = any_is_curved ? h.search_velocity_mm_s : part.start_velocity_mm_s;
+    return kSearches * search + 2 * travel / to_park_mm_s;
+}
+
+/// An upper bound of the time of a homing that has to repeat the search for a switch. Axes that home by touch do so one
+/// after the other, and each of their moves begins and ends a run of frames.
+double homing_seconds(const Bench& bench) {
+    constexpr double kMovesByTouch = 20;
     double seconds = bench.protocol_seconds();
     for (const MotorConfig& motor : bench.kinematics().motors()) {
-        const HomingConfig& h = motor.homing;
-        if (h.in_place) { continue; }
-        const double travel = motor.position_max_mm - motor.position_min_mm + 2 * motor.plant.travel_margin_mm;
-        const double search = travel / h.search_velocity_mm_s + 20 * h.pulloff_mm / h.search_velocity_mm_s +
-                              2 * h.pulloff_mm / h.latch_velocity_mm_s;
-        const double to_park_mm_s = bench.map().any_is_curved() ? h.search_velocity_mm_s : motor.start_velocity_mm_s;
-        seconds += kSearches * search + 2 * travel / to_park_mm_s;
+        if (!motor.homing.in_place) { seconds += homing_seconds(motor, bench.map().any_is_curved()); }
+    }
+    for (const AxisConfig& axis : bench.machine().axes) {
+        if (axis.homing.input.empty()) { continue; }
+        seconds += homing_seconds(axis, bench.map().any_is_curved()) + kMovesByTouch * bench.protocol_seconds();
     }
     return seconds;
 }
@@ -93,17 +104,24 @@ bool has_screws(const MachineConfig& machine) {
     });
 }
 
-/// The park position, on a whole step of the axis if motors correct screws. A motor that lost its coordinator on the
-/// way, with its zero set, rests where it reports; check_slides() compares that with the true place of the slide.
+/// Motors that are moved by axes that home by touch.
+AxisSet homed_by_touch(const Bench& bench) {
+    return bench.kinematics().motors_of_axes(axes_homed_by_touch(~AxisSet{0}, bench.machine()));
+}
+
+/// The park position, on a whole step of the axis if motors correct screws or the axis homes by touch. A motor that
+/// lost its coordinator on the way, with its zero set, rests where it reports; check_slides() compares that with the
+/// true place of the slide.
 std::int64_t place_after_homing(const Bench& bench, std::size_t motor, JobOutcome outcome) {
     const AxisState& state = bench.watch().motors()[motor];
     if (outcome != JobOutcome::Done && state.homed && state.at_rest) { return state.position.count(); }
     const MotorConfig& config = bench.kinematics().motors()[motor];
-    if (!bench.map().is_curved(motor)) { return nearest_step(config, config.homing.park_mm); }
+    const bool is_by_touch = has_axis(homed_by_touch(bench), motor);
+    if (!bench.map().is_curved(motor) && !is_by_touch) { return nearest_step(config, config.homing.park_mm); }
     Places park;
     for (const AxisConfig& axis : bench.machine().axes) {
         const double steps = axis.homing.park_mm * axis.steps_per_mm;
-        park.push_back(has_screws(bench.machine()) ? std::round(steps) : steps);
+        park.push_back(is_by_touch || has_screws(bench.machine()) ? std::round(steps) : steps);
     }
     return std::llround(bench.map().place(motor, park));
 }
@@ -120,12 +138,14 @@ int most_tries(const Bench& bench) {
     return static_cast<int>(2 * std::ceil(homings));
 }
 
-/// Axes that are homed in place are first put to their park by hand. A motor that is still homed objects with a Fault.
+/// Axes that are homed in place are first put to their park by hand, but not those without a switch that home
+/// together with others by touch. A motor that is still homed objects with a Fault.
 void put_to_park(Bench& bench) {
     bool moves = false;
+    const AxisSet by_touch = homed_by_touch(bench);
     for (std::size_t m = 0; m < bench.kinematics().motors().size(); ++m) {
         const MotorConfig& motor = bench.kinematics().motors()[m];
-        if (!motor.homing.in_place) { continue; }
+        if (!motor.homing.in_place || has_axis(by_touch, m)) { continue; }
         const double off_mm = motor.homing.park_mm - bench.vm().device(m).plant().position_mm();
         const std::int64_t steps = std::llround(off_mm * motor.steps_per_mm);
         if (std::abs(steps) <= most_following_error(motor)) { continue; }  // a homed motor would not notice

@@ -99,15 +99,13 @@ void print_run(std::uint64_t seed, const RunResult& result, const Options& optio
         std::fprintf(to, "  ... and %zu more\n", result.violations.size() - kMostPrinted);
     }
     if (result.violations.empty()) { return; }
-    const MachineKind& machine = options.machine;
-    const std::string axes = machine.axes ? " --axes " + std::to_string(*machine.axes) : "";
-    std::fprintf(to,
-                 "  replay: lockstep-simtest --seed %" PRIu64 " --runs 1 --faults %s%s%s%s%s%s%s%s%s%s%s%s --trace\n",
-                 seed, joined(options.faults).c_str(), axes.c_str(), machine.long_searches ? " --long-searches" : "",
-                 machine.late_devices ? " --late-devices" : "", machine.motors ? " --motors" : "",
-                 machine.deltas ? " --deltas" : "", machine.screws ? " --screws" : "", machine.jogs ? " --jogs" : "",
-                 machine.inputs ? " --inputs" : "", machine.outputs ? " --outputs" : "",
-                 machine.boards ? " --boards" : "", machine.probes ? " --probes" : "");
+    std::string machine;
+    if (options.machine.axes) { machine += " --axes " + std::to_string(*options.machine.axes); }
+    for (const MachineKind::Flag& flag : kMachineFlags) {
+        if (options.machine.*flag.kind) { machine += std::string(" ") + flag.name; }
+    }
+    std::fprintf(to, "  replay: lockstep-simtest --seed %" PRIu64 " --runs 1 --faults %s%s --trace\n", seed,
+                 joined(options.faults).c_str(), machine.c_str());
 }
 
 void print_tally(const Tally& t, const Options& options) { options.json ? print_json(t) : print_text(t); }

@@ -61,6 +61,7 @@ private:
     std::size_t job_of_ = 0;  // the coordinator that began or continued the last job
     bool orphaned_ = false;   // this coordinator has ended since, or gave up the machine
     std::optional<JobOutcome> outcome_;
+    std::uint64_t homing_move_ = 0;
     std::map<std::uint64_t, MachinePhase> phase_at_command_;
 };
 
