@@ -23,13 +23,14 @@ Link::Header Link::header_of(const Message& message) {
 }
 
 void Link::take(std::uint8_t byte, std::uint32_t now_us) {
-    if (reader_.take(byte)) { take_message(reader_.message(), now_us); }
+    if (reader_.take(byte)) { take(reader_.message(), now_us); }
 }
 
-void Link::take_message(const Message& message, std::uint32_t now_us) {
+/// A terminal that is not yet set up sends this end's own frames back to it.
+void Link::take(const Message& message, std::uint32_t now_us) {
     if (message.size < kHeaderBytes) { return; }
     const Header header = header_of(message);
-    if (header.from == 0) { return; }
+    if (header.from == 0 || header.from == session_) { return; }
     if (header.from != peer_) { begin_with(header.from); }
     peer_stamp_ = header.stamp;
     if (header.to != session_) {  // it does not know this end yet
@@ -39,6 +40,11 @@ void Link::take_message(const Message& message, std::uint32_t now_us) {
     echoed_ = header.echo;
     take_acknowledgement(header.expected, now_us);
     if (message.size > kHeaderBytes) { take_words(message, header.number); }
+}
+
+void Link::restart(std::uint32_t session) {
+    session_ = session;
+    peer_ = 0;
 }
 
 void Link::begin_with(std::uint32_t peer) {

@@ -47,6 +47,10 @@ public:
 
     /// Takes a byte of the other end. Times are microseconds of any clock, which may wrap.
     void take(std::uint8_t byte, std::uint32_t now_us);
+    /// The same for an owner that reads frames itself, because it has several lines.
+    void take(const Message& message, std::uint32_t now_us);
+    /// Begins a new session, with another number: another host follows, or one that has missed what others did.
+    void restart(std::uint32_t session);
     /// Makes the next frame to send. Returns false if there is none now.
     [[nodiscard]] bool next_frame(std::uint32_t now_us, Frame& frame);
 
@@ -72,7 +76,6 @@ private:
     struct Header;
     static Header header_of(const Message& message);
 
-    void take_message(const Message& message, std::uint32_t now_us);
     void begin_with(std::uint32_t peer);
     void take_acknowledgement(std::uint16_t acknowledged, std::uint32_t now_us);
     void take_words(const Message& message, std::uint16_t number);

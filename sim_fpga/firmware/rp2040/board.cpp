@@ -24,14 +24,16 @@ constexpr Abilities abilities_of(std::uint32_t power_up, std::size_t motor) {
 
 }  // namespace
 
-Board::Board(std::uint32_t power_up)
+Board::Board(std::uint32_t power_up, Line& first, Line& second)
     : pins_{MotorPins(0), MotorPins(1), MotorPins(2)},
       devices_{{pins_[0], abilities_of(power_up, 0), 0},
                {pins_[1], abilities_of(power_up, 1), 0},
                {pins_[2], abilities_of(power_up, 2), 0}},
       words_{&devices_[0].words(), &devices_[1].words(), &devices_[2].words()},
       board_words_(words_, kMotors, *this),
-      link_(board_words_, power_up) {}
+      link_(board_words_, power_up),
+      session_(power_up),
+      lines_{&first, &second} {}
 
 void Board::render() {
     while (have_room_for_block()) { render_block(); }
@@ -54,15 +56,35 @@ void Board::lose_ticks() {
 
 bool Board::serve_link() {
     const auto now_us = static_cast<std::uint32_t>(chip::at(chip::timer::kNow));
-    std::uint8_t byte = 0;
     bool is_busy = false;
-    for (; receive(byte); is_busy = true) { link_.take(byte, now_us); }
+    for (std::size_t line = 0; line < kLines; ++line) { is_busy = receive(line, now_us) || is_busy; }
     if (transmission_.is_done() && link_.next_frame(now_us, transmission_.frame())) {
         transmission_.begin();
         is_busy = true;
     }
-    transmission_.advance();
+    transmission_.advance(*lines_[choice_.line()]);
     return is_busy;
+}
+
+bool Board::receive(std::size_t line, std::uint32_t now_us) {
+    std::uint8_t byte = 0;
+    bool has_come = false;
+    for (; lines_[line]->receive(byte); has_come = true) {
+        if (readers_[line].take(byte)) { take(readers_[line].message(), line, now_us); }
+    }
+    return has_come;
+}
+
+/// A host that comes by another line gets all words: it may have been the host before the one that has gone.
+void Board::take(const Message& message, std::size_t line, std::uint32_t now_us) {
+    const LineChoice::Verdict verdict = choice_.take(line, now_us);
+    if (verdict == LineChoice::Verdict::Ignored) { return; }
+    if (verdict == LineChoice::Verdict::Changed) {
+        transmission_.drop();
+        session_ += 2;  // odd, so never 0
+        link_.restart(session_);
+    }
+    link_.take(message, now_us);
 }
 
 void Board::enter() { asm volatile("cpsid i" ::: "memory"); }

@@ -7,14 +7,16 @@
 
 #include "sim_fpga/firmware/device/device.hpp"
 #include "sim_fpga/firmware/link/board_words.hpp"
+#include "sim_fpga/firmware/link/line.hpp"
+#include "sim_fpga/firmware/link/line_choice.hpp"
 #include "sim_fpga/firmware/rp2040/step_pins.hpp"
-#include "sim_fpga/firmware/rp2040/uart.hpp"
 
 namespace lockstep::firmware {
 
 class Board final : public Exchange {
 public:
-    explicit Board(std::uint32_t power_up);
+    /// The lines, of the first of which a host is expected, must outlive this object.
+    Board(std::uint32_t power_up, Line& first, Line& second);
 
     /// The machines that time the pins begin now.
     void begin_clock();
@@ -33,12 +35,20 @@ public:
 
 private:
     void render_block();
+    bool receive(std::size_t line, std::uint32_t now_us);
+    void take(const Message& message, std::size_t line, std::uint32_t now_us);
+
+    static constexpr std::size_t kLines = 2;
 
     MotorPins pins_[kMotors];
     Device devices_[kMotors];
     Words* words_[kMotors];
     BoardWords board_words_;
     Link link_;
+    std::uint32_t session_;
+    Line* lines_[kLines];
+    FrameReader readers_[kLines];
+    LineChoice choice_;
     Transmission transmission_;
     std::int64_t now_ = 0;        // the last tick that was executed
     std::uint32_t began_us_ = 0;  // when the pins began the first tick, by the chip's timer

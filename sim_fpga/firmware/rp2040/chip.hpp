@@ -20,12 +20,12 @@ inline void wait_for(std::uint32_t address, std::uint32_t bits) {
 namespace clocks {
 inline constexpr std::uint32_t kRefControl = 0x4000'8030, kRefSelected = 0x4000'8038;
 inline constexpr std::uint32_t kSysControl = 0x4000'803C, kSysSelected = 0x4000'8044;
-inline constexpr std::uint32_t kPeripheralControl = 0x4000'8048;
+inline constexpr std::uint32_t kPeripheralControl = 0x4000'8048, kUsbControl = 0x4000'8054;
 }  // namespace clocks
 namespace resets {
 inline constexpr std::uint32_t kReset = 0x4000'C000, kDone = 0x4000'C008;
-inline constexpr std::uint32_t kIoBank = bit(5), kPads = bit(8), kPio0 = bit(10), kPllSys = bit(12), kTimer = bit(21),
-                               kUart0 = bit(22);
+inline constexpr std::uint32_t kIoBank = bit(5), kPads = bit(8), kPio0 = bit(10), kPllSys = bit(12), kPllUsb = bit(13),
+                               kTimer = bit(21), kUart0 = bit(22), kUsb = bit(24);
 }  // namespace resets
 namespace io {
 /// The control register of a pin.
@@ -41,10 +41,11 @@ inline constexpr std::uint32_t kInput = 0x56;
 namespace crystal {
 inline constexpr std::uint32_t kControl = 0x4002'4000, kStatus = 0x4002'4004, kStartup = 0x4002'400C;
 }  // namespace crystal
-namespace pll_sys {
-inline constexpr std::uint32_t kControl = 0x4002'8000, kPower = 0x4002'8004, kFeedback = 0x4002'8008,
-                               kPostDividers = 0x4002'800C;
-}  // namespace pll_sys
+/// A PLL's registers, from its first one on.
+namespace pll {
+inline constexpr std::uint32_t kSys = 0x4002'8000, kUsb = 0x4002'C000;
+inline constexpr std::uint32_t kControl = 0x00, kPower = 0x04, kFeedback = 0x08, kPostDividers = 0x0C;
+}  // namespace pll
 namespace uart0 {
 inline constexpr std::uint32_t kDataByte = 0x4003'4000, kFlags = 0x4003'4018, kWholeDivider = 0x4003'4024,
                                kFraction = 0x4003'4028, kLine = 0x4003'402C, kControl = 0x4003'4030,
@@ -62,6 +63,30 @@ inline constexpr std::uint32_t kTick = 0x4005'802C;
 namespace ring_oscillator {
 inline constexpr std::uint32_t kRandomBit = 0x4006'001C;
 }  // namespace ring_oscillator
+namespace flash_line {
+inline constexpr std::uint32_t kControl = 0x1800'0000, kEnable = 0x1800'0008, kDivider = 0x1800'0014,
+                               kStatus = 0x1800'0028, kData = 0x1800'0060;
+inline constexpr std::uint32_t kHasReceived = bit(3);
+}  // namespace flash_line
+namespace usb_memory {
+inline constexpr std::uint32_t kBegin = 0x5010'0000, kBytes = 4096;
+/// The control registers of endpoint n, from 1 on, and the control words of buffers, from 0 on.
+constexpr std::uint32_t in_end(unsigned n) { return kBegin + 8 * n; }
+constexpr std::uint32_t out_end(unsigned n) { return kBegin + 8 * n + 4; }
+constexpr std::uint32_t in_buffers(unsigned n) { return kBegin + 0x80 + 8 * n; }
+constexpr std::uint32_t out_buffers(unsigned n) { return kBegin + 0x84 + 8 * n; }
+inline constexpr std::uint32_t kEnabled = bit(31), kTwoBuffers = bit(30), kEachBuffer = bit(29), kBulk = 2U << 26,
+                               kInterrupt = 3U << 26;
+}  // namespace usb_memory
+namespace usb_controller {
+inline constexpr std::uint32_t kAddress = 0x5011'0000, kMainControl = 0x5011'0040, kControl = 0x5011'004C,
+                               kStatus = 0x5011'0050, kBuffersDone = 0x5011'0058, kRefusesControl = 0x5011'0068,
+                               kMuxing = 0x5011'0074, kPower = 0x5011'0078;
+inline constexpr std::uint32_t kEachControlBuffer = bit(29), kPullUp = bit(16);
+inline constexpr std::uint32_t kBusReset = bit(19), kHasSetup = bit(17);
+inline constexpr std::uint32_t kToTransceiver = bit(0), kConnected = bit(3);
+inline constexpr std::uint32_t kOverridesPower = bit(2), kHasPower = bit(3);
+}  // namespace usb_controller
 namespace pio0 {
 inline constexpr std::uint32_t kControl = 0x5020'0000, kDebug = 0x5020'0008, kLevels = 0x5020'000C;
 constexpr std::uint32_t transmit(unsigned machine) { return 0x5020'0010 + 4 * machine; }

@@ -22,31 +22,33 @@ void end_reset(std::uint32_t parts) {
     wait_for(resets::kDone, parts);
 }
 
-/// 12 MHz x 125 / 6 / 2.
-void start_pll() {
-    end_reset(resets::kPllSys);
-    at(pll_sys::kControl) = 1;
-    at(pll_sys::kFeedback) = 125;
-    at(clear_bits(pll_sys::kPower)) = bit(0) | bit(5);  // the PLL and its oscillator
-    wait_for(pll_sys::kControl, bit(31));
-    at(pll_sys::kPostDividers) = 6 << 16 | 2 << 12;
-    at(clear_bits(pll_sys::kPower)) = bit(3);
+/// The crystal x feedback / first / second.
+void start_pll(std::uint32_t one, std::uint32_t feedback, std::uint32_t first, std::uint32_t second) {
+    at(one + pll::kControl) = 1;
+    at(one + pll::kFeedback) = feedback;
+    at(clear_bits(one + pll::kPower)) = bit(0) | bit(5);  // the PLL and its oscillator
+    wait_for(one + pll::kControl, bit(31));
+    at(one + pll::kPostDividers) = first << 16 | second << 12;
+    at(clear_bits(one + pll::kPower)) = bit(3);
 }
 
 }  // namespace
 
 void start_clocks() {
     start_crystal();
-    start_pll();
-    at(clocks::kRefControl) = 2;  // the crystal
+    end_reset(resets::kPllSys | resets::kPllUsb);
+    start_pll(pll::kSys, 125, 6, 2);  // 125 MHz
+    start_pll(pll::kUsb, 100, 5, 5);  // 48 MHz
+    at(clocks::kRefControl) = 2;      // the crystal
     wait_for(clocks::kRefSelected, bit(2));
     at(clocks::kSysControl) = 0;  // the reference, while the other source changes to the PLL
     wait_for(clocks::kSysSelected, bit(0));
     at(clocks::kSysControl) = 1;
     wait_for(clocks::kSysSelected, bit(1));
     at(clocks::kPeripheralControl) = bit(11);
+    at(clocks::kUsbControl) = bit(11);
     at(watchdog::kTick) = bit(9) | kCrystal_mhz;
-    end_reset(resets::kIoBank | resets::kPads | resets::kPio0 | resets::kTimer | resets::kUart0);
+    end_reset(resets::kIoBank | resets::kPads | resets::kPio0 | resets::kTimer | resets::kUart0 | resets::kUsb);
 }
 
 }  // namespace lockstep::firmware

@@ -1,4 +1,4 @@
-// The board's clocks: 125 MHz for the processor, from a crystal of 12 MHz.
+// The board's clocks: 125 MHz for the processor, 48 MHz for USB, from a crystal of 12 MHz.
 #pragma once
 
 #include <cstdint>

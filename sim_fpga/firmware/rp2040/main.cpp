@@ -2,6 +2,10 @@
 #include "sim_fpga/firmware/rp2040/board.hpp"
 #include "sim_fpga/firmware/rp2040/chip.hpp"
 #include "sim_fpga/firmware/rp2040/clocks.hpp"
+#include "sim_fpga/firmware/rp2040/flash_id.hpp"
+#include "sim_fpga/firmware/rp2040/uart.hpp"
+#include "sim_fpga/firmware/rp2040/usb_line.hpp"
+#include "sim_fpga/registers.hpp"
 
 inline void* operator new(std::size_t, void* place) noexcept { return place; }
 
@@ -69,10 +73,15 @@ extern "C" void on_render_time() {
 extern "C" int main() {
     start_clocks();
     connect_step_pins();
-    new (board_memory) Board(random_word());
+    const std::uint64_t flash = read_flash_id();
+    UartLine uart;
+    UsbLine usb(flash != 0 ? flash : registers::kMapChecksumValue);
+    new (board_memory) Board(random_word(), uart, usb);
     start_motors();
-    start_uart();
+    uart.start();
+    usb.start();
     for (;;) {
+        usb.serve();
         if (!board().serve_link()) { asm volatile("wfi"); }  // the render's alarm ends it, at the latest
     }
 }

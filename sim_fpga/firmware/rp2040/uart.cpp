@@ -19,7 +19,7 @@ std::uint32_t received_tail;
 
 }  // namespace
 
-void start_uart() {
+void UartLine::start() {
     at(uart0::kWholeDivider) = 7;  // 125 MHz / 16 / 7.8125
     at(uart0::kFraction) = 52;
     at(uart0::kLine) = 0x70;      // 8 bits, queues
@@ -41,16 +41,16 @@ extern "C" void on_uart() {
     at(uart0::kClear) = uart0::kReceive | uart0::kReceiveTimeout;
 }
 
-bool receive(std::uint8_t& byte) {
+bool UartLine::receive(std::uint8_t& byte) {
     if (received_head == received_tail) { return false; }
     byte = received[received_tail++ % kRoom];
     return true;
 }
 
-void Transmission::advance() {
-    while (!is_done() && (at(uart0::kFlags) & uart0::kTransmitFull) == 0) {
-        at(uart0::kDataByte) = frame_.bytes[next_++];
-    }
+std::size_t UartLine::send(const std::uint8_t* bytes, std::size_t size) {
+    std::size_t sent = 0;
+    while (sent < size && (at(uart0::kFlags) & uart0::kTransmitFull) == 0) { at(uart0::kDataByte) = bytes[sent++]; }
+    return sent;
 }
 
 }  // namespace lockstep::firmware

@@ -1,28 +1,18 @@
-// The line to the host: UART 0 at 1 MBd, 8 bits, no parity.
+// A line to a host: UART 0 at 1 MBd, 8 bits, no parity.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
-#include "sim_fpga/firmware/link/frame.hpp"
+#include "sim_fpga/firmware/link/line.hpp"
 
 namespace lockstep::firmware {
 
-void start_uart();
-/// The next byte that was received. Returns false if there is none.
-[[nodiscard]] bool receive(std::uint8_t& byte);
-
-/// A frame on its way.
-class Transmission {
+class UartLine final : public Line {
 public:
-    Frame& frame() { return frame_; }
-    bool is_done() const { return next_ >= frame_.size; }
-    void begin() { next_ = 0; }
-    /// Sends as many bytes as the UART takes now.
-    void advance();
-
-private:
-    Frame frame_;
-    std::size_t next_ = 0;
+    void start();
+    bool receive(std::uint8_t& byte) override;
+    std::size_t send(const std::uint8_t* bytes, std::size_t size) override;
 };
 
 }  // namespace lockstep::firmware

@@ -146,7 +146,7 @@ TEST(FirmwareLink, BeginsAnewWhenAnEndDoes) {
     ListOfWrites host;
     ListOfWrites board;
     host.writes = {{0, 8, 1}, {1, 16, 2}};
-    firmware::Link host_link(host, 1);
+    firmware::Link host_link(host, 9);
     PoorLine there({}, 1);
     PoorLine back({}, 2);
     std::uint32_t now_us = 0;
@@ -159,6 +159,36 @@ TEST(FirmwareLink, BeginsAnewWhenAnEndDoes) {
         EXPECT_EQ(board.taken, host.writes);
         EXPECT_EQ(host.begun, static_cast<int>(session));
     }
+}
+
+/// A host that has missed what another one did gets all words when it is back.
+TEST(FirmwareLink, BeginsAnewWithAHostThatComesBack) {
+    ListOfWrites board;
+    board.writes = {{0, 8, 1}, {1, 16, 2}};
+    firmware::Link board_link(board, 21);
+    ListOfWrites words[2];
+    firmware::Link hosts[2] = {{words[0], 31}, {words[1], 33}};
+    std::uint32_t now_us = 0;
+    for (const int turn : {0, 1, 0}) {
+        PoorLine there({}, 1);
+        PoorLine back({}, 2);
+        board_link.restart(21 + 2 * now_us + 2);
+        words[turn].taken.clear();
+        for (const std::uint32_t until_us = now_us + 50'000; now_us < until_us; now_us += 50) {
+            there.advance(hosts[turn], board_link, now_us);
+            back.advance(board_link, hosts[turn], now_us);
+        }
+        EXPECT_EQ(words[turn].taken, board.writes);
+    }
+}
+
+TEST(FirmwareLink, DoesNotTakeItsOwnFramesForThoseOfTheOtherEnd) {
+    ListOfWrites words;
+    firmware::Link link(words, 5);
+    PoorLine echo({}, 1);
+    for (std::uint32_t now_us = 0; now_us < 50'000; now_us += 50) { echo.advance(link, link, now_us); }
+    EXPECT_FALSE(link.is_connected());
+    EXPECT_EQ(words.begun, 0);
 }
 
 }  // namespace

@@ -2,16 +2,19 @@
 //
 // Usage: node board_emulator.mjs FIRMWARE.uf2
 //
-// Request, on standard input, little-endian: the microsecond until which to run (u32), the levels of the input pins (u32;
-// pin n is bit n), how many bytes arrive at the board from now on (u32), these bytes. Answer: how many bytes the board has
-// sent (u32), how many edges its pins had (u32), for how many cycles the processor was in interrupts (u32), the bytes, the
-// edges: processor cycle (f64), pin (u8), level (u8). An end of input ends the process. The start of the machines that
-// time the pins is an edge of pin 255.
+// Request, on standard input, little-endian, of u32: the microsecond until which to run, the levels of the input pins (pin
+// n is bit n), what happens at the USB plug (PLUG), how many bytes arrive at the board from now on by its UART and by USB,
+// these bytes. Answer: how many bytes the board has sent by its UART and by USB, how many edges its pins had, for how many
+// cycles the processor was in interrupts, whether a program on the USB host has the line open, the bytes, the edges:
+// processor cycle (f64), pin (u8), level (u8). An end of input ends the process. The start of the machines that time the
+// pins is an edge of pin 255.
 //
 // The package rp2040js runs the chip's programmable machines (PIO) from a JavaScript timer, without dividers. Here they
 // run in step with the processor. It also lets a UART send without end; here a byte takes its time.
 import fs from 'node:fs';
 import { FIFO, GPIOPinState, RP2040 } from 'rp2040js';
+import { attachFlashId, FLASH_ID } from './flash_id.mjs';
+import { UsbHost } from './usb_host.mjs';
 
 const MHZ = 125;
 const NS_PER_CYCLE = 1000 / MHZ;
@@ -19,6 +22,8 @@ const BYTE_CYCLES = 10 * MHZ; // 1 MBd, with a start and a stop bit
 const UART_QUEUE = 32;
 const TRANSMIT_FULL = 1 << 5;
 const START = 255;
+const PLUG = { none: 0, in: 1, out: 2, reset: 3 };
+const TEXTS = `Lockstep,Motor board,${Buffer.from(FLASH_ID).toString('hex').toUpperCase()}`;
 const WATCHED_PINS = [2, 3, 4, 6, 7, 8, 10, 11, 12];
 const INPUT_PINS = [13, 14, 15, 16, 17, 18, 19, 20, 21];
 const STACK_OF_BOOT_ROM = 0x20041f00;
@@ -64,6 +69,8 @@ class Board {
     this.#clockMachines();
     this.#connectUart();
     this.#watchPins();
+    attachFlashId(this.chip);
+    this.usb = new UsbHost(this.chip);
     this.chip.core.SP = STACK_OF_BOOT_ROM;
     this.chip.core.PC = SECOND_STAGE;
   }
@@ -130,6 +137,13 @@ class Board {
     this.#arriving.push(...bytes);
   }
 
+  plug(event, bytes) {
+    if (event === PLUG.in) this.usb.plug(this.now);
+    if (event === PLUG.out) this.usb.unplug();
+    if (event === PLUG.reset) this.usb.reset(this.now);
+    if (this.usb.isOpen) this.usb.waiting.push(...bytes);
+  }
+
   run(untilUs) {
     const { chip } = this;
     const until = untilUs * MHZ;
@@ -140,7 +154,9 @@ class Board {
       chip.clock.tick(cycles * NS_PER_CYCLE);
       if (this.#nextDue < this.now) this.#runMachines();
       if (this.#nextArrival <= this.now) this.#arrive();
+      if (this.usb.due <= this.now) this.usb.step();
     }
+    if (this.usb.isOpen && String(this.usb.texts) !== TEXTS) throw new Error(`the USB device is ${this.usb.texts}`);
   }
 
   #nextInstruction() {
@@ -151,7 +167,7 @@ class Board {
 
   #cyclesToWake(until) {
     const alarm = Math.ceil(this.chip.clock.nanosToNextAlarm / NS_PER_CYCLE) || Infinity;
-    const others = Math.min(until, this.#nextDue, this.#nextArrival) - this.now;
+    const others = Math.min(until, this.#nextDue, this.#nextArrival, Math.ceil(this.usb.due)) - this.now;
     return Math.max(1, Math.min(alarm, others));
   }
 
@@ -172,14 +188,16 @@ class Board {
   }
 
   take() {
-    const head = 12;
-    const answer = Buffer.alloc(head + this.sent.length + 10 * this.edges.length);
-    answer.writeUInt32LE(this.sent.length, 0);
-    answer.writeUInt32LE(this.edges.length, 4);
-    answer.writeUInt32LE(this.interrupted, 8);
-    answer.set(this.sent, head);
-    let at = head + this.sent.length;
-    for (const [cycle, pin, level] of this.edges) {
+    const { sent, edges, usb } = this;
+    const head = 20;
+    const answer = Buffer.alloc(head + sent.length + usb.received.length + 10 * edges.length);
+    [sent.length, usb.received.length, edges.length, this.interrupted, usb.isOpen ? 1 : 0].forEach((word, n) => {
+      answer.writeUInt32LE(word, 4 * n);
+    });
+    answer.set(sent, head);
+    answer.set(usb.received, head + sent.length);
+    let at = head + sent.length + usb.received.length;
+    for (const [cycle, pin, level] of edges) {
       answer.writeDoubleLE(cycle, at);
       answer[at + 8] = pin;
       answer[at + 9] = level;
@@ -187,6 +205,7 @@ class Board {
     }
     this.sent = [];
     this.edges = [];
+    this.usb.received = [];
     this.interrupted = 0;
     return answer;
   }
@@ -208,9 +227,11 @@ function write(bytes) {
 }
 
 const board = new Board(fs.readFileSync(process.argv[2]));
-for (let request = read(12); request !== null; request = read(12)) {
-  board.setInputs(request.readUInt32LE(4));
-  board.receive(read(request.readUInt32LE(8)));
-  board.run(request.readUInt32LE(0));
+for (let request = read(20); request !== null; request = read(20)) {
+  const [until, levels, plug, uartBytes, usbBytes] = Array.from({ length: 5 }, (_, n) => request.readUInt32LE(4 * n));
+  board.setInputs(levels);
+  board.receive(read(uartBytes));
+  board.plug(plug, read(usbBytes));
+  board.run(until);
   write(board.take());
 }

@@ -35,16 +35,19 @@ EmulatedBoard::~EmulatedBoard() {
     ::waitpid(process_, nullptr, 0);
 }
 
-EmulatedBoard::Answer EmulatedBoard::run(std::uint32_t until_us, std::uint32_t levels,
-                                         const std::vector<std::uint8_t>& bytes) {
-    const std::array<std::uint32_t, 3> request{until_us, levels, static_cast<std::uint32_t>(bytes.size())};
-    write(request.data(), sizeof request);
-    write(bytes.data(), bytes.size());
-    std::array<std::uint32_t, 3> head{};
+EmulatedBoard::Answer EmulatedBoard::run(const Request& request) {
+    const auto size = [](const std::vector<std::uint8_t>& bytes) { return static_cast<std::uint32_t>(bytes.size()); };
+    const std::array<std::uint32_t, 5> words{request.until_us, request.levels, static_cast<std::uint32_t>(request.plug),
+                                             size(request.by_uart), size(request.by_usb)};
+    write(words.data(), sizeof words);
+    write(request.by_uart.data(), request.by_uart.size());
+    write(request.by_usb.data(), request.by_usb.size());
+    std::array<std::uint32_t, 5> head{};
     read(head.data(), sizeof head);
-    Answer answer{std::vector<std::uint8_t>(head[0]), {}, head[2]};
-    read(answer.sent.data(), answer.sent.size());
-    for (std::uint32_t n = 0; n < head[1]; ++n) {
+    Answer answer{std::vector<std::uint8_t>(head[0]), std::vector<std::uint8_t>(head[1]), {}, head[3], head[4] != 0};
+    read(answer.by_uart.data(), answer.by_uart.size());
+    read(answer.by_usb.data(), answer.by_usb.size());
+    for (std::uint32_t n = 0; n < head[2]; ++n) {
         std::array<std::uint8_t, 10> edge{};
         read(edge.data(), edge.size());
         double cycle = 0;

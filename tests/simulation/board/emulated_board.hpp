@@ -23,14 +23,24 @@ public:
     EmulatedBoard(const EmulatedBoard&) = delete;
     EmulatedBoard& operator=(const EmulatedBoard&) = delete;
 
+    enum class Plug : std::uint32_t { AsItIs, In, Out, Reset };  // Reset: the USB host begins anew
+    struct Request {
+        std::uint32_t until_us;    // since power-up
+        std::uint32_t levels = 0;  // of the pins; pin n is bit n
+        Plug plug = Plug::AsItIs;  // at the beginning
+        std::vector<std::uint8_t> by_uart{};
+        std::vector<std::uint8_t> by_usb{};  // lost if no program has the line open
+    };
     struct Answer {
-        std::vector<std::uint8_t> sent;
+        std::vector<std::uint8_t> by_uart;
+        std::vector<std::uint8_t> by_usb;
         std::vector<PinEdge> edges;
         std::uint32_t interrupted = 0;  // for how many cycles the processor was in interrupts
+        bool is_usb_open = false;       // a program on the USB host has the line open
     };
-    /// Runs the board until this microsecond since power-up. `levels`: of the pins; pin n is bit n. `bytes` arrive at
-    /// it, one every 10 us. Throws if the emulator ends, which it does if the firmware stops.
-    Answer run(std::uint32_t until_us, std::uint32_t levels, const std::vector<std::uint8_t>& bytes);
+    /// Runs the board. Bytes arrive by its UART every 10 us, and by USB as soon as the bus can. Throws if the emulator
+    /// ends, which it does if the firmware stops, or does what a USB host does not accept.
+    Answer run(const Request& request);
 
 private:
     void write(const void* bytes, std::size_t size);

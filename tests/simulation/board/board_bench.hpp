@@ -1,0 +1,126 @@
+// The board, and a host at each of its lines. At first only the host at the UART speaks.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "services/axis/device_driver.hpp"
+#include "sim_fpga/firmware/host/host_words.hpp"
+#include "tests/simulation/board/pin_watch.hpp"
+
+namespace lockstep::testing {
+
+class BoardHost {
+public:
+    explicit BoardHost(std::uint32_t session) : link_(words_, session) {}
+
+    /// The next bytes to send, at most so many.
+    std::vector<std::uint8_t> send(std::size_t most, std::uint32_t now_us) {
+        firmware::Frame frame;
+        while (waiting_.size() < most && link_.next_frame(now_us, frame)) {
+            waiting_.insert(waiting_.end(), frame.bytes, frame.bytes + frame.size);
+        }
+        const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(std::min(most, waiting_.size()));
+        std::vector<std::uint8_t> bytes(waiting_.begin(), end);
+        waiting_.erase(waiting_.begin(), end);
+        return bytes;
+    }
+    void take(const std::vector<std::uint8_t>& bytes, std::uint32_t now_us) {
+        for (const std::uint8_t byte : bytes) { link_.take(byte, now_us); }
+    }
+    DeviceDriver driver(std::size_t motor) { return DeviceDriver::attach(windows_[motor], kTick_ns).value(); }
+    bool is_connected() const { return windows_[kMotors - 1].load(registers::kMagic) == registers::kMagicValue; }
+    std::uint64_t tick() const { return windows_[0].load(registers::kTick); }
+
+private:
+    std::vector<RegisterWindow> windows_{RegisterWindow::in_process(), RegisterWindow::in_process(),
+                                         RegisterWindow::in_process()};
+    firmware::HostWords words_{windows_};
+    firmware::Link link_;
+    std::deque<std::uint8_t> waiting_;
+};
+
+enum class HostLine : std::size_t { Uart, Usb };
+
+class BoardBench {
+public:
+    static constexpr std::uint32_t kSlice_us = 500;
+
+    void run(std::uint32_t until_us) {
+        constexpr std::size_t kUartBytes = 50;
+        constexpr std::size_t kUsbBytes = 600;
+        while (now_us_ < until_us) {
+            EmulatedBoard::Request request{now_us_ + kSlice_us, levels_, std::exchange(plug_, Plug::AsItIs)};
+            if (speaks_[0]) { request.by_uart = spoilt(hosts_[0].send(kUartBytes, now_us_)); }
+            if (speaks_[1] && is_usb_open_) { request.by_usb = spoilt(hosts_[1].send(kUsbBytes, now_us_)); }
+            now_us_ += kSlice_us;
+            take(board_.run(request));
+        }
+    }
+    using Plug = EmulatedBoard::Plug;
+    /// Before the next run.
+    void plug(Plug event) { plug_ = event; }
+    bool is_usb_open() const { return is_usb_open_; }
+    BoardHost& host(HostLine line) { return hosts_[static_cast<std::size_t>(line)]; }
+    void let_speak(HostLine line, bool speaks) { speaks_[static_cast<std::size_t>(line)] = speaks; }
+    /// Bytes that have come by USB so far.
+    std::size_t usb_bytes() const { return usb_bytes_; }
+
+    /// From now on one byte of a thousand comes damaged, either way.
+    void damage() { is_poor_ = true; }
+    /// The upper limit switch of a motor.
+    void close_switch(std::size_t motor) { levels_ |= 1U << (14 + 3 * motor); }
+    std::uint32_t now_us() const { return now_us_; }
+    const std::vector<StepEdge>& steps(std::size_t motor) const { return pins_[motor].steps; }
+    void expect(std::size_t motor, const PinTimes& times) { pins_[motor].times = times; }
+    /// The share of the busiest 2.5 ms so far in which the processor was in interrupts: it executed ticks.
+    double busiest() const { return busiest_; }
+
+private:
+    std::vector<std::uint8_t> spoilt(std::vector<std::uint8_t> bytes) {
+        for (std::uint8_t& byte : bytes) {
+            if (is_poor_ && random_() % 1000 == 0) { byte = static_cast<std::uint8_t>(byte ^ (1U << random_() % 8)); }
+        }
+        return bytes;
+    }
+    void take(const EmulatedBoard::Answer& answer) {
+        measure(answer.interrupted);
+        is_usb_open_ = answer.is_usb_open;
+        usb_bytes_ += answer.by_usb.size();
+        if (speaks_[0]) { hosts_[0].take(spoilt(answer.by_uart), now_us_); }
+        if (speaks_[1]) { hosts_[1].take(spoilt(answer.by_usb), now_us_); }
+        for (const PinEdge& edge : answer.edges) {
+            if (edge.pin == kStartPin) { start_ = edge.cycle; }
+            for (std::size_t motor = 0; motor < kMotors; ++motor) { pins_[motor].take(edge, motor, start_); }
+        }
+    }
+
+    void measure(std::uint32_t cycles) {
+        constexpr std::size_t kSlices = 5;
+        interrupted_.push_back(cycles);
+        if (interrupted_.size() > kSlices) { interrupted_.pop_front(); }
+        const double sum = std::accumulate(interrupted_.begin(), interrupted_.end(), 0.0);
+        busiest_ = std::max(busiest_, sum / (kSlices * kSlice_us * kCyclesPerTick));
+    }
+
+    EmulatedBoard board_{LOCKSTEP_BOARD_EMULATOR, LOCKSTEP_BOARD_FIRMWARE};
+    std::array<BoardHost, 2> hosts_{BoardHost{1}, BoardHost{3}};  // by HostLine
+    std::array<bool, 2> speaks_{true, false};
+    Plug plug_ = Plug::AsItIs;
+    bool is_usb_open_ = false;
+    std::size_t usb_bytes_ = 0;
+    std::array<PinWatch, kMotors> pins_;
+    std::uint32_t now_us_ = 0;
+    double start_ = 0;
+    std::uint32_t levels_ = 0;               // of the input pins; pin n is bit n
+    std::deque<std::uint32_t> interrupted_;  // of the last slices
+    double busiest_ = 0;
+    bool is_poor_ = false;
+    std::mt19937_64 random_{1};
+};
+
+}  // namespace lockstep::testing

@@ -1,0 +1,60 @@
+// The board at a USB host, in the emulator: enumeration, the link and the motors, and what a plug may do to them.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+
+#include "tests/simulation/board/board_fixture.hpp"
+
+namespace lockstep::testing {
+namespace {
+
+class UsbBoard : public Board {
+protected:
+    void SetUp() override {
+        bench.let_speak(HostLine::Uart, false);
+        bench.let_speak(HostLine::Usb, true);
+        bench.plug(BoardBench::Plug::In);
+        connect(HostLine::Usb);
+    }
+};
+
+TEST_F(UsbBoard, MakesEachPinEdgeOfItsFramesByUsb) {
+    const Tick start = soon();
+    const std::array courses{course(1, start, kFrames), course(2, start, kFrames), course(3, start, kFrames)};
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { order(motor, courses[motor]); }
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { run_to_end(motor); }
+    run(bench.now_us() + 1000);
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { expect_steps(courses[motor], motor); }
+    EXPECT_LE(bench.busiest(), 0.91) << "sim_fpga/firmware/README.md states it";
+}
+
+/// Each motor may run two frames of four.
+TEST_F(UsbBoard, RunsWhatIsArmedAndItsTailIfTheCableIsUnplugged) {
+    const Tick start = soon();
+    const std::array courses{course(1, start, 2), course(2, start, 2), course(3, start, 2)};
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { order(motor, courses[motor]); }
+    run(start.value + 5000);
+    bench.plug(BoardBench::Plug::Out);
+    for (const Course& course : courses) { run(course.end.value + 10'000); }
+    EXPECT_FALSE(bench.is_usb_open());
+    bench.plug(BoardBench::Plug::In);
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { run_to_end(motor); }
+    run(bench.now_us() + 20'000);
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { expect_steps(courses[motor], motor); }
+}
+
+TEST_F(UsbBoard, MovesOnThroughAResetOfTheBus) {
+    const Tick start = soon();
+    const std::array courses{course(4, start, kFrames), course(5, start, kFrames), course(6, start, kFrames)};
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { order(motor, courses[motor]); }
+    run(start.value + 5000);
+    bench.plug(BoardBench::Plug::Reset);
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { run_to_end(motor); }
+    run(bench.now_us() + 20'000);
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { expect_steps(courses[motor], motor); }
+    EXPECT_TRUE(bench.is_usb_open());
+}
+
+}  // namespace
+}  // namespace lockstep::testing
