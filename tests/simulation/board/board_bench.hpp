@@ -57,6 +57,7 @@ public:
             EmulatedBoard::Request request{now_us_ + kSlice_us, levels_, std::exchange(plug_, Plug::AsItIs)};
             if (speaks_[0]) { request.by_uart = spoilt(hosts_[0].send(kUartBytes, now_us_)); }
             if (speaks_[1] && is_usb_open_) { request.by_usb = spoilt(hosts_[1].send(kUsbBytes, now_us_)); }
+            if (is_babbling_ && random_() % 20 == 0) { babble(request.by_usb); }
             now_us_ += kSlice_us;
             take(board_.run(request));
         }
@@ -67,9 +68,11 @@ public:
     bool is_usb_open() const { return is_usb_open_; }
     BoardHost& host(HostLine line) { return hosts_[static_cast<std::size_t>(line)]; }
     void let_speak(HostLine line, bool speaks) { speaks_[static_cast<std::size_t>(line)] = speaks; }
-    /// Bytes that have come by USB so far.
-    std::size_t usb_bytes() const { return usb_bytes_; }
+    /// Bytes a second that have come by USB in the busiest 5 ms so far.
+    double busiest_usb() const { return static_cast<double>(most_usb_bytes_) * 200; }
 
+    /// From now on any bytes come by USB among those of the host, in one slice of twenty.
+    void babble() { is_babbling_ = true; }
     /// From now on one byte of a thousand comes damaged, either way.
     void damage() { is_poor_ = true; }
     /// The upper limit switch of a motor.
@@ -87,10 +90,14 @@ private:
         }
         return bytes;
     }
+    void babble(std::vector<std::uint8_t>& bytes) {
+        for (auto left = random_() % 40; left > 0; --left) { bytes.push_back(static_cast<std::uint8_t>(random_())); }
+        if (random_() % 4 == 0) { bytes.push_back(0); }
+    }
     void take(const EmulatedBoard::Answer& answer) {
         measure(answer.interrupted);
         is_usb_open_ = answer.is_usb_open;
-        usb_bytes_ += answer.by_usb.size();
+        measure_usb(answer.by_usb.size());
         if (speaks_[0]) { hosts_[0].take(spoilt(answer.by_uart), now_us_); }
         if (speaks_[1]) { hosts_[1].take(spoilt(answer.by_usb), now_us_); }
         for (const PinEdge& edge : answer.edges) {
@@ -99,6 +106,12 @@ private:
         }
     }
 
+    void measure_usb(std::size_t bytes) {
+        constexpr std::size_t kSlices = 10;
+        usb_bytes_.push_back(bytes);
+        if (usb_bytes_.size() > kSlices) { usb_bytes_.pop_front(); }
+        most_usb_bytes_ = std::max(most_usb_bytes_, std::accumulate(usb_bytes_.begin(), usb_bytes_.end(), 0UL));
+    }
     void measure(std::uint32_t cycles) {
         constexpr std::size_t kSlices = 5;
         interrupted_.push_back(cycles);
@@ -112,7 +125,9 @@ private:
     std::array<bool, 2> speaks_{true, false};
     Plug plug_ = Plug::AsItIs;
     bool is_usb_open_ = false;
-    std::size_t usb_bytes_ = 0;
+    std::deque<std::size_t> usb_bytes_;  // that came in the last slices
+    std::size_t most_usb_bytes_ = 0;
+    bool is_babbling_ = false;
     std::array<PinWatch, kMotors> pins_;
     std::uint32_t now_us_ = 0;
     double start_ = 0;

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdio>
 
 #include "tests/simulation/board/board_fixture.hpp"
 
@@ -27,6 +26,7 @@ TEST_F(UsbBoard, MakesEachPinEdgeOfItsFramesByUsb) {
     run(bench.now_us() + 1000);
     for (std::size_t motor = 0; motor < kMotors; ++motor) { expect_steps(courses[motor], motor); }
     EXPECT_LE(bench.busiest(), 0.91) << "sim_fpga/firmware/README.md states it";
+    EXPECT_GE(bench.busiest_usb(), 4.5e5) << "the same";
 }
 
 /// Each motor may run two frames of four.
@@ -54,6 +54,40 @@ TEST_F(UsbBoard, MovesOnThroughAResetOfTheBus) {
     run(bench.now_us() + 20'000);
     for (std::size_t motor = 0; motor < kMotors; ++motor) { expect_steps(courses[motor], motor); }
     EXPECT_TRUE(bench.is_usb_open());
+}
+
+/// A thousandth of the bytes is damaged too.
+TEST_F(UsbBoard, MovesAsPlannedAmongAnyOtherBytes) {
+    bench.damage();
+    bench.babble();
+    const Tick start = soon() + Ticks{300'000};
+    const std::array courses{course(7, start, kFrames), course(8, start, 2), course(9, start, kFrames)};
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { order(motor, courses[motor]); }
+    run(start.value);
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { run_to_end(motor); }
+    run(bench.now_us() + 1000);
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { expect_steps(courses[motor], motor); }
+}
+
+TEST_F(UsbBoard, KeepsItsHostUntilItIsSilentAndThenServesTheOtherLine) {
+    BoardHost& usb = bench.host(HostLine::Usb);
+    BoardHost& uart = bench.host(HostLine::Uart);
+    bench.let_speak(HostLine::Uart, true);
+    const std::uint64_t before = usb.tick();
+    bench.run(bench.now_us() + 100'000);
+    EXPECT_FALSE(uart.is_connected());
+    EXPECT_GE(usb.tick(), before + 90'000);
+
+    bench.let_speak(HostLine::Usb, false);
+    await_answer(HostLine::Uart);
+    bench.let_speak(HostLine::Usb, true);
+    bench.run(bench.now_us() + 50'000);
+    const std::uint64_t at_return = usb.tick();
+    EXPECT_LT(at_return + 100'000, uart.tick()) << "the board serves the other line";
+
+    bench.let_speak(HostLine::Uart, false);
+    bench.run(bench.now_us() + 150'000);
+    EXPECT_GE(usb.tick(), at_return + 200'000) << "the board serves the first host again";
 }
 
 }  // namespace
