@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kAdapters = "/dev/serial/by-id";
+constexpr const char* kByName = "serial/by-id";
 
 bool is_on(const MotorConfig& motor, const std::string& board) {
     return motor.device.kind == DeviceName::Kind::Linked && motor.device.place == board;
@@ -146,20 +146,50 @@ proto::BoardReport measure_board(const MachineConfig& machine, const BoardLinkCo
 std::string why_not_opened(const BoardLinkConfig& board) {
     const auto link = read_link_name(board.link);
     if (!link || link->kind != LinkName::Kind::Serial || ::access(link->place.c_str(), R_OK | W_OK) == 0) { return ""; }
-    const std::string remedy = errno == EACCES ? "let this user use it: adduser USER dialout, then log in again"
-                                               : fmt::format("check the board's cable, and its name in {}", kAdapters);
+    const std::string remedy = errno == EACCES
+                                   ? "let this user use it: adduser USER dialout, then log in again"
+                                   : fmt::format("check the board's cable, and its name in /dev/{}", kByName);
     return fmt::format("{}: {}; {}", link->place, std::strerror(errno), remedy);
 }
 
-std::vector<std::string> free_adapters(const MachineConfig& machine) {
-    std::vector<std::string> adapters;
+namespace {
+
+/// The file behind a name, of which a line may have several.
+fs::path file_behind(const fs::path& name) {
     std::error_code none;
-    for (const fs::directory_entry& entry : fs::directory_iterator(kAdapters, none)) {
-        const std::string link = "serial:" + entry.path().string();
-        const auto is_named = [&](const BoardLinkConfig& board) { return board.link == link; };
-        if (std::ranges::none_of(machine.board_links, is_named)) { adapters.push_back(link); }
+    const fs::path line = fs::canonical(name, none);
+    return none ? name : line;
+}
+
+bool is_of_usb(const std::string& name) { return name.starts_with("ttyACM") || name.starts_with("ttyUSB"); }
+
+/// The serial lines by their lasting names, and those of USB that have none, as in a container.
+std::vector<fs::path> serial_lines(const fs::path& devices) {
+    std::vector<fs::path> lines;
+    std::error_code none;
+    for (const fs::directory_entry& entry : fs::directory_iterator(devices / kByName, none)) { lines.push_back(entry); }
+    const auto is_listed = [&](const fs::path& line) {
+        return std::ranges::find(lines, line, file_behind) != lines.end();
+    };
+    for (const fs::directory_entry& entry : fs::directory_iterator(devices, none)) {
+        const bool is_line = is_of_usb(entry.path().filename());
+        if (is_line && !is_listed(file_behind(entry))) { lines.push_back(entry); }
     }
-    std::ranges::sort(adapters);
+    std::ranges::sort(lines);
+    return lines;
+}
+
+}  // namespace
+
+std::vector<std::string> free_adapters(const MachineConfig& machine, const fs::path& devices) {
+    std::vector<std::string> adapters;
+    for (const fs::path& line : serial_lines(devices)) {
+        const auto is_named = [&](const BoardLinkConfig& board) {
+            const auto link = read_link_name(board.link);
+            return link && link->kind == LinkName::Kind::Serial && file_behind(link->place) == file_behind(line);
+        };
+        if (std::ranges::none_of(machine.board_links, is_named)) { adapters.push_back("serial:" + line.string()); }
+    }
     return adapters;
 }
 

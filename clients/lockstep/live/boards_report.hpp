@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <expected>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,8 @@ proto::BoardReport measure_board(const MachineConfig& machine, const BoardLinkCo
 /// Why this user cannot open the board's line; empty if it can, and for TCP.
 std::string why_not_opened(const BoardLinkConfig& board);
 
-/// The serial adapters of this host that no board of the machine names.
-std::vector<std::string> free_adapters(const MachineConfig& machine);
+/// The serial lines of this host that no board of the machine names: boards at USB, and adapters.
+std::vector<std::string> free_adapters(const MachineConfig& machine, const std::filesystem::path& devices = "/dev");
 
 /// Whether the board answers and suits all motors that use it, as far as the report says.
 bool is_well(const proto::BoardReport& report);

@@ -126,7 +126,7 @@ void add_board(Verb command) {
                                          "look at boards behind links\n"
                                          "The machine may be up or down.");
     boards.footer(group_footer("  lockstep board check\n", "board check"));
-    add_part(boards, "list", "list the machine's boards and the free serial adapters, without a word to any of them",
+    add_part(boards, "list", "list the machine's boards and the free serial lines, without a word to any of them",
              list);
     add_part(boards, "check", "check that each board answers, and that its devices suit the motors that use them",
              check);
