@@ -54,6 +54,13 @@ void Board::lose_ticks() {
     for (Device& device : devices_) { device.lose_ticks(); }
 }
 
+bool Board::is_idle() const {
+    for (const Device& device : devices_) {
+        if (device.is_enabled() || !device.is_at_rest()) { return false; }
+    }
+    return true;
+}
+
 bool Board::serve_link() {
     const auto now_us = static_cast<std::uint32_t>(chip::at(chip::timer::kNow));
     bool is_busy = false;

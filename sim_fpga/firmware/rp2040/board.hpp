@@ -24,6 +24,8 @@ public:
     void render();
     /// The pins had no bit for a tick.
     void lose_ticks();
+    /// Whether no motor is enabled, moves or waits for a frame.
+    bool is_idle() const;
     /// Takes bytes of the host and sends frames to it. Returns false if there was nothing to do.
     bool serve_link();
 

@@ -1,5 +1,6 @@
 // The firmware of a Raspberry Pi Pico.
 #include "sim_fpga/firmware/rp2040/board.hpp"
+#include "sim_fpga/firmware/rp2040/boot_mode.hpp"
 #include "sim_fpga/firmware/rp2040/chip.hpp"
 #include "sim_fpga/firmware/rp2040/clocks.hpp"
 #include "sim_fpga/firmware/rp2040/flash_id.hpp"
@@ -82,6 +83,7 @@ extern "C" int main() {
     usb.start();
     for (;;) {
         usb.serve();
+        if (usb.takes_boot_request() && board().is_idle()) { enter_boot_mode(); }
         if (!board().serve_link()) { asm volatile("wfi"); }  // the render's alarm ends it, at the latest
     }
 }

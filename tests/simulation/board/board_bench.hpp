@@ -66,6 +66,7 @@ public:
     /// Before the next run.
     void plug(Plug event) { plug_ = event; }
     bool is_usb_open() const { return is_usb_open_; }
+    bool is_in_boot_mode() const { return is_in_boot_mode_; }
     BoardHost& host(HostLine line) { return hosts_[static_cast<std::size_t>(line)]; }
     void let_speak(HostLine line, bool speaks) { speaks_[static_cast<std::size_t>(line)] = speaks; }
     /// Bytes a second that have come by USB in the busiest 5 ms so far.
@@ -97,6 +98,7 @@ private:
     void take(const EmulatedBoard::Answer& answer) {
         measure(answer.interrupted);
         is_usb_open_ = answer.is_usb_open;
+        is_in_boot_mode_ = answer.is_in_boot_mode;
         measure_usb(answer.by_usb.size());
         if (speaks_[0]) { hosts_[0].take(spoilt(answer.by_uart), now_us_); }
         if (speaks_[1]) { hosts_[1].take(spoilt(answer.by_usb), now_us_); }
@@ -125,6 +127,7 @@ private:
     std::array<bool, 2> speaks_{true, false};
     Plug plug_ = Plug::AsItIs;
     bool is_usb_open_ = false;
+    bool is_in_boot_mode_ = false;
     std::deque<std::size_t> usb_bytes_;  // that came in the last slices
     std::size_t most_usb_bytes_ = 0;
     bool is_babbling_ = false;

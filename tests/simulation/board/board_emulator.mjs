@@ -5,8 +5,8 @@
 // Request, on standard input, little-endian, of u32: the microsecond until which to run, the levels of the input pins (pin
 // n is bit n), what happens at the USB plug (PLUG), how many bytes arrive at the board from now on by its UART and by USB,
 // these bytes. Answer: how many bytes the board has sent by its UART and by USB, how many edges its pins had, for how many
-// cycles the processor was in interrupts, whether a program on the USB host has the line open, the bytes, the edges:
-// processor cycle (f64), pin (u8), level (u8). An end of input ends the process. The start of the machines that time the
+// cycles the processor was in interrupts, what the board is (STATE), the bytes, the edges: processor cycle (f64), pin (u8),
+// level (u8). An end of input ends the process. The start of the machines that time the
 // pins is an edge of pin 255.
 //
 // The package rp2040js runs the chip's programmable machines (PIO) from a JavaScript timer, without dividers. Here they
@@ -22,7 +22,13 @@ const BYTE_CYCLES = 10 * MHZ; // 1 MBd, with a start and a stop bit
 const UART_QUEUE = 32;
 const TRANSMIT_FULL = 1 << 5;
 const START = 255;
-const PLUG = { none: 0, in: 1, out: 2, reset: 3 };
+const PLUG = { none: 0, in: 1, out: 2, reset: 3, closeAt1200: 4 };
+const STATE = { isOpen: 1, isInBootMode: 2 }; // a program on the USB host has the line open; the firmware has ended
+// Of a boot ROM: its function that finds others, of which there is one, and that other one, which ends the firmware. Half
+// words at their addresses.
+const ROM = [[0x14, 0x40], [0x18, 0x21], [0x20, 0x4800], [0x22, 0x4770], [0x24, 0x31], [0x26, 0], [0x30, 0xbe00],
+  [0x32, 0xe7fe]];
+const ROM_END = 0x30;
 const TEXTS = `Lockstep,Motor board,${Buffer.from(FLASH_ID).toString('hex').toUpperCase()}`;
 const WATCHED_PINS = [2, 3, 4, 6, 7, 8, 10, 11, 12];
 const INPUT_PINS = [13, 14, 15, 16, 17, 18, 19, 20, 21];
@@ -63,16 +69,25 @@ class Board {
     this.chip = new RP2040();
     const fail = (part, text) => { throw new Error(`${part}: ${text}`); };
     this.chip.logger = { debug() {}, info() {}, warn: fail, error: fail };
-    this.chip.onBreak = () => { throw new Error(`the firmware stopped at ${this.now / MHZ} us`); };
+    this.chip.onBreak = () => this.#end();
     this.#load(uf2);
     this.#makeRandomBits();
     this.#clockMachines();
     this.#connectUart();
     this.#watchPins();
     attachFlashId(this.chip);
+    for (const [at, half] of ROM) this.chip.bootrom[at >> 2] |= half << (8 * (at & 2));
     this.usb = new UsbHost(this.chip);
     this.chip.core.SP = STACK_OF_BOOT_ROM;
     this.chip.core.PC = SECOND_STAGE;
+  }
+
+  #end() {
+    const { PC, registers } = this.chip.core;
+    if (PC < ROM_END || PC > ROM_END + 4) throw new Error(`the firmware stopped at ${this.now / MHZ} us`);
+    if (registers[0] !== 0 || registers[1] !== 0) throw new Error('the boot mode is asked for with pins or without a drive');
+    this.isInBootMode = true;
+    this.chip.core.waiting = true;
   }
 
   #load(uf2) {
@@ -141,6 +156,7 @@ class Board {
     if (event === PLUG.in) this.usb.plug(this.now);
     if (event === PLUG.out) this.usb.unplug();
     if (event === PLUG.reset) this.usb.reset(this.now);
+    if (event === PLUG.closeAt1200) this.usb.close(this.now, 1200);
     if (this.usb.isOpen) this.usb.waiting.push(...bytes);
   }
 
@@ -187,11 +203,15 @@ class Board {
     this.#nextArrival = this.#arriving.length > 0 ? this.#nextArrival + BYTE_CYCLES : Infinity;
   }
 
+  #state() {
+    return (this.usb.isOpen ? STATE.isOpen : 0) | (this.isInBootMode ? STATE.isInBootMode : 0);
+  }
+
   take() {
     const { sent, edges, usb } = this;
     const head = 20;
     const answer = Buffer.alloc(head + sent.length + usb.received.length + 10 * edges.length);
-    [sent.length, usb.received.length, edges.length, this.interrupted, usb.isOpen ? 1 : 0].forEach((word, n) => {
+    [sent.length, usb.received.length, edges.length, this.interrupted, this.#state()].forEach((word, n) => {
       answer.writeUInt32LE(word, 4 * n);
     });
     answer.set(sent, head);

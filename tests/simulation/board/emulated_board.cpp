@@ -44,7 +44,12 @@ EmulatedBoard::Answer EmulatedBoard::run(const Request& request) {
     write(request.by_usb.data(), request.by_usb.size());
     std::array<std::uint32_t, 5> head{};
     read(head.data(), sizeof head);
-    Answer answer{std::vector<std::uint8_t>(head[0]), std::vector<std::uint8_t>(head[1]), {}, head[3], head[4] != 0};
+    Answer answer{std::vector<std::uint8_t>(head[0]),
+                  std::vector<std::uint8_t>(head[1]),
+                  {},
+                  head[3],
+                  (head[4] & 1) != 0,
+                  (head[4] & 2) != 0};
     read(answer.by_uart.data(), answer.by_uart.size());
     read(answer.by_usb.data(), answer.by_usb.size());
     for (std::uint32_t n = 0; n < head[2]; ++n) {

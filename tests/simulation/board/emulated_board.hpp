@@ -23,7 +23,8 @@ public:
     EmulatedBoard(const EmulatedBoard&) = delete;
     EmulatedBoard& operator=(const EmulatedBoard&) = delete;
 
-    enum class Plug : std::uint32_t { AsItIs, In, Out, Reset };  // Reset: the USB host begins anew
+    /// Reset: the USB host begins anew. CloseAt1200: it closes the line at 1200 Bd.
+    enum class Plug : std::uint32_t { AsItIs, In, Out, Reset, CloseAt1200 };
     struct Request {
         std::uint32_t until_us;    // since power-up
         std::uint32_t levels = 0;  // of the pins; pin n is bit n
@@ -37,6 +38,7 @@ public:
         std::vector<PinEdge> edges;
         std::uint32_t interrupted = 0;  // for how many cycles the processor was in interrupts
         bool is_usb_open = false;       // a program on the USB host has the line open
+        bool is_in_boot_mode = false;   // the firmware has ended
     };
     /// Runs the board. Bytes arrive by its UART every 10 us, and by USB as soon as the bus can. Throws if the emulator
     /// ends, which it does if the firmware stops, or does what a USB host does not accept.

@@ -90,5 +90,26 @@ TEST_F(UsbBoard, KeepsItsHostUntilItIsSilentAndThenServesTheOtherLine) {
     EXPECT_GE(usb.tick(), at_return + 200'000) << "the board serves the first host again";
 }
 
+TEST_F(UsbBoard, EntersItsBootModeIfTheLineIsClosedAt1200Baud) {
+    bench.plug(BoardBench::Plug::CloseAt1200);
+    bench.run(bench.now_us() + 20'000);
+    EXPECT_TRUE(bench.is_in_boot_mode());
+}
+
+/// A motor that waits for its frames, and then one that holds its place.
+TEST_F(UsbBoard, StaysAwayFromItsBootModeWhileAMotorMovesOrIsEnabled) {
+    order(0, course(1, soon(), kFrames));
+    run(bench.now_us() + 60'000);
+    bench.plug(BoardBench::Plug::CloseAt1200);
+    run(bench.now_us() + 200'000);
+    EXPECT_FALSE(bench.is_in_boot_mode());
+    EXPECT_FALSE(bench.steps(0).empty());
+    bench.plug(BoardBench::Plug::Reset);
+    run_to_end(0);
+    bench.plug(BoardBench::Plug::CloseAt1200);
+    run(bench.now_us() + 20'000);
+    EXPECT_FALSE(bench.is_in_boot_mode());
+}
+
 }  // namespace
 }  // namespace lockstep::testing
