@@ -4,13 +4,13 @@ namespace lockstep::firmware {
 
 using namespace registers;
 
-Channels::Channels(Words& words, const Abilities& abilities)
-    : words_(words), abilities_(abilities), events_(words), queue_(words, abilities), outputs_(events_) {}
+Channels::Channels(Words& words, const Abilities& abilities, Port& port)
+    : words_(words), abilities_(abilities), events_(words), queue_(words, abilities), outputs_(events_, port) {}
 
 void Channels::set(const Setup& setup, const Moment& at) {
     is_next_known_ = false;
     setup_ = setup;
-    outputs_.set(setup);
+    outputs_.set(setup, at.now);
     note_inputs(inputs_.set(setup), at);
     host_.begin(setup.silence_ticks, at.now);
 }

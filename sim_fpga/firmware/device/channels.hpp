@@ -12,6 +12,7 @@
 #include "sim_fpga/firmware/device/inputs.hpp"
 #include "sim_fpga/firmware/device/output_queue.hpp"
 #include "sim_fpga/firmware/device/outputs.hpp"
+#include "sim_fpga/firmware/device/port.hpp"
 #include "sim_fpga/firmware/device/setup.hpp"
 #include "sim_fpga/firmware/device/words.hpp"
 
@@ -26,8 +27,8 @@ struct Moment {
 
 class Channels {
 public:
-    /// Both must outlive this object.
-    Channels(Words& words, const Abilities& abilities);
+    /// All must outlive this object.
+    Channels(Words& words, const Abilities& abilities, Port& port);
     Channels(const Channels&) = delete;
     Channels& operator=(const Channels&) = delete;
 

@@ -9,7 +9,7 @@ Device::Device(Port& port, const Abilities& abilities, std::int64_t now)
       abilities_(abilities),
       segments_(words_),
       capture_(words_),
-      channels_(words_, abilities_),
+      channels_(words_, abilities_, port),
       engine_(now) {
     store_abilities();
     tend();

@@ -39,8 +39,6 @@ public:
 
     std::int64_t now() const { return engine_.now(); }
     bool is_enabled() const { return enabled_.is_set; }
-    /// It has no run, not even one that waits.
-    bool is_at_rest() const { return phase_ == Phase::AtRest; }
     const Channels& channels() const { return channels_; }
 
 private:

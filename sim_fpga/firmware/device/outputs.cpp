@@ -18,9 +18,17 @@ std::int64_t Outputs::Ramp::at(std::int64_t now) const {
     return is_narrow(sum) ? within_scale(static_cast<std::int64_t>(sum.low)) : kFullScale;
 }
 
-void Outputs::set(const Setup& setup) {
+void Outputs::set(const Setup& setup, std::int64_t now) {
     compare_outputs_ = setup.compare_outputs;
     compare_ticks_ = setup.compare_ticks > 1 ? setup.compare_ticks : 1;
+    show(now);
+}
+
+/// Tells the port which levels have changed.
+void Outputs::show(std::int64_t now) {
+    if (digital() == shown_) { return; }
+    shown_ = digital();
+    port_.show(now, shown_);
 }
 
 void Outputs::begin(const OutputChange* changes, std::size_t count, std::int64_t start) {
@@ -40,13 +48,17 @@ void Outputs::end(std::int64_t now, std::int64_t count) {
 Due Outputs::next() const { return left_ > 0 ? earlier(pulse_ends_, Due::at(start_ + changes_->at)) : pulse_ends_; }
 
 void Outputs::tend(std::int64_t now, std::int64_t count) {
-    if (pulse_ends_.is_past(now)) { pulse_ends_ = {}; }
+    if (pulse_ends_.is_past(now)) {
+        pulse_ends_ = {};
+        show(now);
+    }
     for (; left_ > 0 && start_ + changes_->at <= now; ++changes_, --left_) { change(*changes_, now, count); }
 }
 
 bool Outputs::arrive(std::int64_t tick, std::int64_t count) {
     if (places_.pulses == 0 || count != places_.next) { return false; }
     pulse_ends_ = Due::at(tick + compare_ticks_);
+    show(tick);
     places_.next += places_.every;
     pulses_left_ = --places_.pulses;
     if (pulses_left_ == 0) { events_.put({.tick = tick, .kind = EventKind::CompareEnds, .value = count}); }
@@ -68,6 +80,7 @@ void Outputs::change_digital(std::uint16_t levels, std::uint16_t mask, std::int6
     const auto after = static_cast<std::uint16_t>((levels_ & ~mask) | (levels & mask));
     if (after == levels_) { return; }
     levels_ = after;
+    show(now);
     events_.put({.tick = now, .kind = EventKind::Digital, .levels = after, .value = count});
 }
 

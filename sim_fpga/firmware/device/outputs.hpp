@@ -7,6 +7,7 @@
 #include "sim_fpga/firmware/device/due.hpp"
 #include "sim_fpga/firmware/device/events.hpp"
 #include "sim_fpga/firmware/device/output_queue.hpp"
+#include "sim_fpga/firmware/device/port.hpp"
 #include "sim_fpga/firmware/device/setup.hpp"
 
 namespace lockstep::firmware {
@@ -16,10 +17,10 @@ inline constexpr std::int64_t kFullScale = std::int64_t{1} << 62;
 
 class Outputs {
 public:
-    /// `events` must outlive this object.
-    explicit Outputs(Events& events) : events_(events) {}
+    /// Both must outlive this object.
+    Outputs(Events& events, Port& port) : events_(events), port_(port) {}
 
-    void set(const Setup& setup);
+    void set(const Setup& setup, std::int64_t now);
 
     /// Begins a body or a tail after tick `start`. `changes`: in order; they must remain until the next call of begin
     /// or end.
@@ -60,16 +61,19 @@ private:
         std::uint32_t pulses = 0;
     };
 
+    void show(std::int64_t now);
     void change(const OutputChange& change, std::int64_t now, std::int64_t count);
     void begin_places(const OutputChange& change, std::int64_t now, std::int64_t count);
     void end_places(std::int64_t now, std::int64_t count);
 
     Events& events_;
+    Port& port_;
     const OutputChange* changes_ = nullptr;
     std::size_t left_ = 0;
     std::int64_t start_ = 0;
 
     std::uint16_t levels_ = 0;
+    std::uint16_t shown_ = 0;  // to the port
     Ramp ramps_[kMostAnalog]{};
 
     std::uint16_t compare_outputs_ = 0;

@@ -11,6 +11,8 @@ public:
     virtual std::uint32_t pins() const = 0;
     /// A pulse in this tick. direction: 1 or -1.
     virtual void step(std::int64_t tick, int direction) = 0;
+    /// After this tick the digital outputs have these levels; output n is bit n, 1 while it is on.
+    virtual void show(std::int64_t tick, std::uint16_t levels) = 0;
     /// Whole steps since power-up. 0 if there is no encoder.
     virtual std::int64_t encoder() const = 0;
 

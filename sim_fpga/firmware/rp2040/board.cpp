@@ -15,7 +15,7 @@ constexpr Abilities abilities_of(std::uint32_t power_up, std::size_t motor) {
             .longest_time = kMostTime_ns,
             .longest_pwm_period = 0,
             .inputs = 3,
-            .digital_outputs = 0,
+            .digital_outputs = kOutputs[motor].count,
             .analog_outputs = 0,
             .has_encoder = false,
             .can_enable = true,
@@ -25,7 +25,7 @@ constexpr Abilities abilities_of(std::uint32_t power_up, std::size_t motor) {
 }  // namespace
 
 Board::Board(std::uint32_t power_up, Line& first, Line& second)
-    : pins_{MotorPins(0), MotorPins(1), MotorPins(2)},
+    : pins_{{0, outputs_}, {1, outputs_}, {2, outputs_}},
       devices_{{pins_[0], abilities_of(power_up, 0), 0},
                {pins_[1], abilities_of(power_up, 1), 0},
                {pins_[2], abilities_of(power_up, 2), 0}},
@@ -46,6 +46,7 @@ void Board::render_block() {
         devices_[motor].execute(now_ + kRenderTicks);
     }
     for (const MotorPins& pins : pins_) { pins.queue_block(); }
+    outputs_.queue_block(now_);
     finish_block();
     now_ += kRenderTicks;
 }
@@ -54,11 +55,11 @@ void Board::lose_ticks() {
     for (Device& device : devices_) { device.lose_ticks(); }
 }
 
-bool Board::is_idle() const {
+bool Board::is_any_enabled() const {
     for (const Device& device : devices_) {
-        if (device.is_enabled() || !device.is_at_rest()) { return false; }
+        if (device.is_enabled()) { return true; }
     }
-    return true;
+    return false;
 }
 
 bool Board::serve_link() {
@@ -119,6 +120,7 @@ void Board::take_orders() {
         pins_[motor].show_enabled(devices_[motor].is_enabled());
         const Setup& setup = devices_[motor].channels().setup();
         pins_[motor].invert(setup.inverted);
+        invert_outputs(motor, setup.outputs_inverted);
         pins_[motor].time(static_cast<std::uint32_t>(setup.step_width),
                           static_cast<std::uint32_t>(setup.direction_setup));
     }

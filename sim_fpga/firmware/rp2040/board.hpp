@@ -9,6 +9,7 @@
 #include "sim_fpga/firmware/link/board_words.hpp"
 #include "sim_fpga/firmware/link/line.hpp"
 #include "sim_fpga/firmware/link/line_choice.hpp"
+#include "sim_fpga/firmware/rp2040/output_pins.hpp"
 #include "sim_fpga/firmware/rp2040/step_pins.hpp"
 
 namespace lockstep::firmware {
@@ -24,8 +25,8 @@ public:
     void render();
     /// The pins had no bit for a tick.
     void lose_ticks();
-    /// Whether no motor is enabled, moves or waits for a frame.
-    bool is_idle() const;
+    /// Whether any motor is enabled. Only such a one moves.
+    bool is_any_enabled() const;
     /// Takes bytes of the host and sends frames to it. Returns false if there was nothing to do.
     bool serve_link();
 
@@ -42,6 +43,7 @@ private:
 
     static constexpr std::size_t kLines = 2;
 
+    OutputPins outputs_;
     MotorPins pins_[kMotors];
     Device devices_[kMotors];
     Words* words_[kMotors];

@@ -4,6 +4,7 @@
 #include "sim_fpga/firmware/rp2040/chip.hpp"
 #include "sim_fpga/firmware/rp2040/clocks.hpp"
 #include "sim_fpga/firmware/rp2040/flash_id.hpp"
+#include "sim_fpga/firmware/rp2040/output_pins.hpp"
 #include "sim_fpga/firmware/rp2040/uart.hpp"
 #include "sim_fpga/firmware/rp2040/usb_line.hpp"
 #include "sim_fpga/registers.hpp"
@@ -74,6 +75,7 @@ extern "C" void on_render_time() {
 extern "C" int main() {
     start_clocks();
     connect_step_pins();
+    connect_outputs();
     const std::uint64_t flash = read_flash_id();
     UartLine uart;
     UsbLine usb(flash != 0 ? flash : registers::kMapChecksumValue);
@@ -83,7 +85,7 @@ extern "C" int main() {
     usb.start();
     for (;;) {
         usb.serve();
-        if (usb.takes_boot_request() && board().is_idle()) { enter_boot_mode(); }
+        if (usb.takes_boot_request() && !board().is_any_enabled()) { enter_boot_mode(); }
         if (!board().serve_link()) { asm volatile("wfi"); }  // the render's alarm ends it, at the latest
     }
 }

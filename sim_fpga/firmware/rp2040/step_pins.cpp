@@ -1,6 +1,7 @@
 #include "sim_fpga/firmware/rp2040/step_pins.hpp"
 
 #include "sim_fpga/firmware/rp2040/chip.hpp"
+#include "sim_fpga/firmware/rp2040/output_pins.hpp"
 #include "sim_fpga/registers.hpp"
 
 namespace lockstep::firmware {
@@ -9,7 +10,7 @@ using namespace chip;
 
 namespace {
 
-constexpr std::uint32_t kAllMachines = (1U << kMotors) - 1;
+constexpr std::uint32_t kAllMachines = (1U << (kMotors + 1)) - 1;
 constexpr std::uint32_t kWaitingWords = kWaitingBlocks * kWordsPerBlock;
 constexpr std::uint32_t kEachDirectionBit = 0xAAAA'AAAA;
 constexpr std::uint32_t kEachStepBit = 0x5555'5555;
@@ -35,6 +36,7 @@ constexpr std::uint32_t kProgram[] = {
     lasting(kSetPinsLow, 8),   // 5: 360 ns
     jump(0),                   // 6: 40 ns
 };
+static_assert(sizeof kProgram / sizeof kProgram[0] == kOutputProgram);
 constexpr std::uint32_t kDividerOf125MHz = 5;
 
 // Words that wait. The execution of ticks alone writes them and `queued_words`, feed_machines() alone `fed_words`.
@@ -57,14 +59,6 @@ void load_program() {
     for (const std::uint32_t instruction : kProgram) { at(pio0::instruction(n++)) = instruction; }
 }
 
-/// Makes a pin an output of a machine, at the low level.
-void connect_pin(std::uint32_t machine, unsigned pin) {
-    at(machine + pio0::kPins) = 1U << 26 | pin << 5;  // one pin for SET
-    at(machine + pio0::kExecute) = kSetPinsOutput;
-    at(machine + pio0::kExecute) = kSetPinsLow;
-    at(io::control(pin)) = io::kPio0;
-}
-
 void connect_motor(std::size_t motor) {
     const std::uint32_t machine = pio0::machine(static_cast<unsigned>(motor));
     at(machine + pio0::kDivider) = kDividerOf125MHz << 16;
@@ -81,6 +75,13 @@ void connect_motor(std::size_t motor) {
 }
 
 }  // namespace
+
+void connect_pin(std::uint32_t machine, unsigned pin) {
+    at(machine + pio0::kPins) = 1U << 26 | pin << 5;  // one pin for SET
+    at(machine + pio0::kExecute) = kSetPinsOutput;
+    at(machine + pio0::kExecute) = kSetPinsLow;
+    at(io::control(pin)) = io::kPio0;
+}
 
 void MotorPins::begin_block(std::int64_t now) {
     block_ = now;
@@ -112,6 +113,8 @@ void MotorPins::pulse(std::int64_t tick) {
     if (const std::uint32_t rest = pulse_ << 1 << (31 - bits); rest != 0) { word[1] ^= rest; }
 }
 
+void MotorPins::show(std::int64_t tick, std::uint16_t levels) { outputs_.show(motor_, tick, levels); }
+
 void MotorPins::turn(std::int64_t tick) {
     is_forward_ = !is_forward_;
     const auto n = static_cast<std::uint32_t>(tick - block_ - 1 + kLeastStepTicks);
@@ -127,8 +130,8 @@ void MotorPins::time(std::uint32_t width_ns, std::uint32_t direction_ns) {
 }
 
 void MotorPins::queue_block() const {
-    const std::uint32_t at = queued_words;
-    for (std::uint32_t n = 0; n < kWordsPerBlock; ++n) { waiting[motor_][(at + n) % kWaitingWords] = words_[n]; }
+    std::uint32_t* const to = waiting[motor_] + queued_words % kWaitingWords;
+    for (std::uint32_t n = 0; n < kWordsPerBlock; ++n) { to[n] = words_[n]; }
 }
 
 void MotorPins::show_enabled(bool is_enabled) const {
@@ -156,6 +159,7 @@ void start_step_pins() {
 void stop_step_pins() {
     at(pio0::kControl) = 0;
     for (unsigned motor = 0; motor < kMotors; ++motor) { at(pio0::machine(motor) + pio0::kExecute) = kSetPinsLow; }
+    switch_outputs_off();
 }
 
 bool have_room_for_block() { return queued_words - fed_words <= kWaitingWords - kWordsPerBlock; }
@@ -163,13 +167,15 @@ bool have_room_for_block() { return queued_words - fed_words <= kWaitingWords - 
 void finish_block() { queued_words = queued_words + kWordsPerBlock; }
 
 void feed_machines() {
-    while (fed_words != queued_words && machines_have_room()) {
-        const std::uint32_t word = fed_words % kWaitingWords;
+    std::uint32_t fed = fed_words;
+    for (const std::uint32_t queued = queued_words; fed != queued && machines_have_room(); ++fed) {
+        const std::uint32_t word = fed % kWaitingWords;
         for (std::size_t motor = 0; motor < kMotors; ++motor) {
             at(pio0::transmit(static_cast<unsigned>(motor))) = waiting[motor][word];
         }
-        fed_words = fed_words + 1;
     }
+    fed_words = fed;
+    feed_outputs();
 }
 
 bool have_run_dry() { return (at(pio0::kDebug) >> 24 & kAllMachines) != 0; }

@@ -42,10 +42,13 @@ constexpr unsigned enable_pin(std::size_t motor) { return static_cast<unsigned>(
 /// The first of three: limit switches below and above, home switch.
 constexpr unsigned first_input_pin(std::size_t motor) { return static_cast<unsigned>(13 + 3 * motor); }
 
+class OutputPins;
+
 /// A motor's pins. Its steps of a block are collected, and then queued.
 class MotorPins final : public Port {
 public:
-    explicit MotorPins(std::size_t motor) : motor_(motor) { time(0, 0); }
+    /// `outputs` must outlive this object.
+    MotorPins(std::size_t motor, OutputPins& outputs) : motor_(motor), outputs_(outputs) { time(0, 0); }
 
     /// Begins the block behind tick `now`.
     void begin_block(std::int64_t now);
@@ -61,6 +64,7 @@ public:
 
     std::uint32_t pins() const override { return pins_; }
     void step(std::int64_t tick, int direction) override;
+    void show(std::int64_t tick, std::uint16_t levels) override;
     std::int64_t encoder() const override { return 0; }
 
 private:
@@ -70,6 +74,7 @@ private:
     void turn(std::int64_t tick);
 
     std::size_t motor_;
+    OutputPins& outputs_;
     std::uint32_t pins_ = 0;
     std::int64_t block_ = 0;           // the tick before the block
     bool is_forward_ = false;          // the level of the direction pin
@@ -80,6 +85,13 @@ private:
     // have what comes behind it.
     std::uint32_t words_[kWordsPerBlock + 2]{};
 };
+
+/// The machines of motors, and behind them that of outputs.
+inline constexpr unsigned kOutputMachine = kMotors;
+/// The first instruction behind those of motors' machines.
+inline constexpr unsigned kOutputProgram = 7;
+/// Makes a pin an output of a machine, given by its registers, at the low level.
+void connect_pin(std::uint32_t machine, unsigned pin);
 
 /// Loads the machines and connects all pins. The machines wait.
 void connect_step_pins();

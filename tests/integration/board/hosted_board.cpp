@@ -67,6 +67,7 @@ public:
             std::fprintf(edges_, "%s %lld %d\n", name_.c_str(), static_cast<long long>(tick), direction);
         }
     }
+    void show(std::int64_t /*tick*/, std::uint16_t /*levels*/) override {}
     std::int64_t encoder() const override { return plant_.encoder(); }
 
 private:

@@ -50,6 +50,7 @@ std::optional<std::string> TwinDevices::difference() const {
     if (auto found = ring(registers::kEventRing, firmware::kEventRoom, registers::kEventRingEntryBytes)) {
         return found;
     }
+    if (port_.shown() != load(registers::kOutputs)) { return "the port shows other outputs than the word OUTPUTS"; }
     return ring(registers::kCaptureRing, firmware::kCaptureRoom, registers::kCaptureRingEntryBytes);
 }
 

@@ -21,11 +21,14 @@ public:
     void step(std::int64_t tick, int direction) override {
         plant_.step({Tick{tick}, static_cast<std::int8_t>(direction)});
     }
+    void show(std::int64_t /*tick*/, std::uint16_t levels) override { shown_ = levels; }
+    std::uint16_t shown() const { return shown_; }
     std::int64_t encoder() const override { return plant_.encoder(); }
     Plant& plant() { return plant_; }
 
 private:
     Plant plant_;
+    std::uint16_t shown_ = 0;
 };
 
 class TwinDevices {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <map>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -80,6 +81,8 @@ public:
     void close_switch(std::size_t motor) { levels_ |= 1U << (14 + 3 * motor); }
     std::uint32_t now_us() const { return now_us_; }
     const std::vector<StepEdge>& steps(std::size_t motor) const { return pins_[motor].steps; }
+    /// The changes of an output's pin so far.
+    const std::vector<LevelChange>& levels(std::uint8_t pin) { return outputs_[pin]; }
     void expect(std::size_t motor, const PinTimes& times) { pins_[motor].times = times; }
     /// The share of the busiest 2.5 ms so far in which the processor was in interrupts: it executed ticks.
     double busiest() const { return busiest_; }
@@ -105,6 +108,7 @@ private:
         for (const PinEdge& edge : answer.edges) {
             if (edge.pin == kStartPin) { start_ = edge.cycle; }
             for (std::size_t motor = 0; motor < kMotors; ++motor) { pins_[motor].take(edge, motor, start_); }
+            if (is_output(edge.pin)) { outputs_[edge.pin].push_back(level_change(edge, start_)); }
         }
     }
 
@@ -132,6 +136,7 @@ private:
     std::size_t most_usb_bytes_ = 0;
     bool is_babbling_ = false;
     std::array<PinWatch, kMotors> pins_;
+    std::map<std::uint8_t, std::vector<LevelChange>> outputs_;
     std::uint32_t now_us_ = 0;
     double start_ = 0;
     std::uint32_t levels_ = 0;               // of the input pins; pin n is bit n

@@ -30,7 +30,7 @@ const ROM = [[0x14, 0x40], [0x18, 0x21], [0x20, 0x4800], [0x22, 0x4770], [0x24, 
   [0x32, 0xe7fe]];
 const ROM_END = 0x30;
 const TEXTS = `Lockstep,Motor board,${Buffer.from(FLASH_ID).toString('hex').toUpperCase()}`;
-const WATCHED_PINS = [2, 3, 4, 6, 7, 8, 10, 11, 12];
+const WATCHED_PINS = [2, 3, 4, 6, 7, 8, 10, 11, 12, 22, 26, 27, 28];
 const INPUT_PINS = [13, 14, 15, 16, 17, 18, 19, 20, 21];
 const STACK_OF_BOOT_ROM = 0x20041f00;
 const SECOND_STAGE = 0x10000000;

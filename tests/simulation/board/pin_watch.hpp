@@ -31,6 +31,21 @@ struct PinTimes {
 inline unsigned step_pin(std::size_t motor) { return static_cast<unsigned>(2 + motor); }
 inline unsigned direction_pin(std::size_t motor) { return static_cast<unsigned>(6 + motor); }
 
+/// A digital output's pin has another level after this tick.
+struct LevelChange {
+    Tick tick;
+    bool is_high = false;
+    bool operator==(const LevelChange&) const = default;
+};
+
+inline bool is_output(std::uint8_t pin) { return pin == 22 || (26 <= pin && pin <= 28); }
+
+/// The machine is as late as those of motors.
+inline LevelChange level_change(const PinEdge& edge, double start) {
+    const double ticks = (edge.cycle - start) / kCyclesPerTick;
+    return {Tick{static_cast<std::int64_t>(std::floor(ticks)) - kLeastStep}, edge.is_high};
+}
+
 /// What the pins of a motor did, in ticks since the machines began.
 class PinWatch {
 public:
