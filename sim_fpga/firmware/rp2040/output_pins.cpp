@@ -1,6 +1,7 @@
 #include "sim_fpga/firmware/rp2040/output_pins.hpp"
 
 #include "sim_fpga/firmware/rp2040/chip.hpp"
+#include "sim_fpga/firmware/rp2040/pin_program.hpp"
 
 namespace lockstep::firmware {
 
@@ -9,30 +10,25 @@ using namespace chip;
 namespace {
 
 constexpr unsigned kFirstPin = 22, kPins = 7;  // the machine writes seven pins, of which four are connected to it
-constexpr std::uint32_t kWaitingWords = 256;   // of blocks that wait: at most 17 words each
-constexpr std::uint32_t kDividerOf125MHz = 5;
-static_assert((kWaitingBlocks + 1) * (kRenderTicks / kLeastOutputTicks + 1) <= kWaitingWords);
+constexpr std::uint32_t kOutputWords = 256;    // of blocks that wait: at most 17 words each
+static_assert((kWaitingBlocks + 1) * (kRenderTicks / kLeastOutputTicks + 1) <= kOutputWords);
 
-constexpr std::uint32_t lasting(std::uint32_t instruction, std::uint32_t more) { return instruction | more << 8; }
 constexpr std::uint32_t kOutPins = 0x6000 | kPins;
-constexpr std::uint32_t kOutX = 0x6020 | (32 - kPins);
-constexpr std::uint32_t jump(std::uint32_t to) { return to; }
-constexpr std::uint32_t jump_if_x_is_0(std::uint32_t to) { return 1 << 5 | to; }
-constexpr std::uint32_t jump_if_x_counts_down(std::uint32_t to) { return 2 << 5 | to; }
+constexpr std::uint32_t kOutTicks = 0x6020 | (32 - kPins);
 constexpr std::uint32_t kPinsLow = 0xA003;  // MOV PINS, NULL
 
 /// 25 cycles of 40 ns a tick, for X + 1 ticks.
-constexpr std::uint32_t kProgram[] = {
+constexpr std::uint32_t kOutputInstructions[] = {
     lasting(kOutPins, 5),                                    // 240 ns
-    lasting(kOutX, 5),                                       // 240 ns
+    lasting(kOutTicks, 5),                                   // 240 ns
     lasting(jump_if_x_is_0(kOutputProgram), 12),             // 520 ns
     lasting(jump_if_x_counts_down(kOutputProgram + 2), 11),  // 480 ns: always, because X is not 0
 };
 
-// The execution of ticks alone writes `queued_words`, feed_outputs() alone `fed_words`.
-std::uint32_t waiting[kWaitingWords];
-volatile std::uint32_t queued_words;
-volatile std::uint32_t fed_words;
+// The execution of ticks alone writes `queued_changes`, feed_outputs() alone `fed_changes`.
+std::uint32_t waiting_changes[kOutputWords];
+volatile std::uint32_t queued_changes;
+volatile std::uint32_t fed_changes;
 
 constexpr std::uint32_t machine() { return pio0::machine(kOutputMachine); }
 bool has_room() { return (at(pio0::kLevels) >> 8 * kOutputMachine & 15) < kMachineWords; }
@@ -83,8 +79,8 @@ void OutputPins::queue_block(std::int64_t now) {
 
 void OutputPins::hold(std::uint32_t until) {
     if (until == held_) { return; }
-    waiting[queued_words % kWaitingWords] = levels_ << (32 - kPins) | (until - held_ - 1);
-    queued_words = queued_words + 1;
+    waiting_changes[queued_changes % kOutputWords] = levels_ << (32 - kPins) | (until - held_ - 1);
+    queued_changes = queued_changes + 1;
     held_ = until;
 }
 
@@ -99,7 +95,7 @@ void OutputPins::apply_until(std::uint32_t time) {
 
 void connect_outputs() {
     unsigned n = kOutputProgram;
-    for (const std::uint32_t instruction : kProgram) { at(pio0::instruction(n++)) = instruction; }
+    for (const std::uint32_t instruction : kOutputInstructions) { at(pio0::instruction(n++)) = instruction; }
     at(machine() + pio0::kDivider) = kDividerOf125MHz << 16;
     at(machine() + pio0::kShift) = bit(30) | bit(17);  // one queue of 8 words; taken by itself, highest bit first
     for (const MotorOutputs& outputs : kOutputs) {
@@ -116,11 +112,13 @@ void invert_outputs(std::size_t motor, std::uint16_t inverted) {
 }
 
 void feed_outputs() {
-    std::uint32_t fed = fed_words;
-    const std::uint32_t queued = queued_words;
+    std::uint32_t fed = fed_changes;
+    const std::uint32_t queued = queued_changes;
     if (fed == queued) { return; }
-    for (; fed != queued && has_room(); ++fed) { at(pio0::transmit(kOutputMachine)) = waiting[fed % kWaitingWords]; }
-    fed_words = fed;
+    for (; fed != queued && has_room(); ++fed) {
+        at(pio0::transmit(kOutputMachine)) = waiting_changes[fed % kOutputWords];
+    }
+    fed_changes = fed;
 }
 
 void switch_outputs_off() { at(machine() + pio0::kExecute) = kPinsLow; }

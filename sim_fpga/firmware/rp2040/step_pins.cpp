@@ -2,6 +2,7 @@
 
 #include "sim_fpga/firmware/rp2040/chip.hpp"
 #include "sim_fpga/firmware/rp2040/output_pins.hpp"
+#include "sim_fpga/firmware/rp2040/pin_program.hpp"
 #include "sim_fpga/registers.hpp"
 
 namespace lockstep::firmware {
@@ -16,12 +17,8 @@ constexpr std::uint32_t kEachDirectionBit = 0xAAAA'AAAA;
 constexpr std::uint32_t kEachStepBit = 0x5555'5555;
 constexpr std::uint32_t kTick_ns = 1000;
 
-/// An instruction of a machine, and `more` of its cycles behind it.
-constexpr std::uint32_t lasting(std::uint32_t instruction, std::uint32_t more) { return instruction | more << 8; }
 constexpr std::uint32_t kOutPin = 0x6001;  // a bit to the direction pin
 constexpr std::uint32_t kOutX = 0x6021;    // a bit to X
-constexpr std::uint32_t jump(std::uint32_t to) { return to; }
-constexpr std::uint32_t jump_if_x_is_0(std::uint32_t to) { return 1 << 5 | to; }
 constexpr std::uint32_t kSetPinsOutput = 0xE081;
 constexpr std::uint32_t kSetPinsLow = 0xE000;
 constexpr std::uint32_t kSetPinsHigh = 0xE001;
@@ -37,7 +34,6 @@ constexpr std::uint32_t kProgram[] = {
     jump(0),                   // 6: 40 ns
 };
 static_assert(sizeof kProgram / sizeof kProgram[0] == kOutputProgram);
-constexpr std::uint32_t kDividerOf125MHz = 5;
 
 // Words that wait. The execution of ticks alone writes them and `queued_words`, feed_machines() alone `fed_words`.
 std::uint32_t waiting[kMotors][kWaitingWords];
