@@ -2,6 +2,7 @@
 // pictures use it. The planner cuts arcs with core/path/geometry/arc_cutter.hpp.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -14,6 +15,21 @@
 #include "core/program.hpp"
 
 namespace lockstep {
+
+/// The distances of an arc's ends from its centre, in mm.
+struct ArcRadii {
+    double begin;
+    double end;
+
+    ArcRadii(const ArcShape& shape, std::span<const double> from_mm, std::span<const double> to_mm)
+        : begin(of(shape, from_mm)), end(of(shape, to_mm)) {}
+    double greatest() const { return std::max(begin, end); }
+
+private:
+    static double of(const ArcShape& shape, std::span<const double> at_mm) {
+        return std::hypot(at_mm[shape.first] - shape.centre_first_mm, at_mm[shape.second] - shape.centre_second_mm);
+    }
+};
 
 class ArcPath {
 public:

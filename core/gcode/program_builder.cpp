@@ -26,6 +26,20 @@ Point place_in(const GcodeSetup& setup, double GcodeAxis::*coordinate) {
     return place;
 }
 
+/// An arc is at least as long as the distance of its ends.
+bool is_short(const ArcShape& shape, const std::vector<double>& from, const std::vector<double>& to) {
+    const auto is_far = [&](std::size_t axis) { return std::abs(to[axis] - from[axis]) > 2 * kLeastArc_mm; };
+    if (is_far(shape.first) || is_far(shape.second)) { return false; }
+    return ArcPath(shape, from, to).plane_length_mm() < kLeastArc_mm;
+}
+
+bool moves_rotary(const GcodeSetup& setup, const std::vector<double>& from, const std::vector<double>& to) {
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        if (to[i] != from[i] && is_rotary(setup.axes[i].name)) { return true; }
+    }
+    return false;
+}
+
 }  // namespace
 
 std::vector<std::optional<std::size_t>> axis_places(const GcodeSetup& setup) {
@@ -189,11 +203,14 @@ void ProgramBuilder::arc(const Arc& arc) {
         if (!places_[i] || arc.target[*places_[i]] == at_[*places_[i]]) { continue; }
         to[i] = within_travel(i, arc.target[*places_[i]]);
     }
-    const ArcPath path(*shape, position_, to);
-    if (path.plane_length_mm() < kLeastArc_mm) { return move(arc.target, arc.feed, false); }
-    if (const std::string why = why_no_arc(path); !why.empty()) { return fail("the arc " + why); }
-    for (const std::size_t i : {shape->first, shape->second}) {
-        const auto [least, greatest] = path.extent(i);
+    const ArcRadii radii(*shape, position_, to);
+    if (is_short(*shape, position_, to)) { return move(arc.target, arc.feed, false); }
+    if (const std::string why = why_no_arc(radii.begin, radii.end); !why.empty()) { return fail("the arc " + why); }
+    for (const auto& [i, centre] : {std::pair(shape->first, shape->centre_first_mm),
+                                    std::pair(shape->second, shape->centre_second_mm)}) {
+        const GcodeAxis& axis = setup_.axes[i];
+        if (centre - radii.greatest() >= axis.min_mm && centre + radii.greatest() <= axis.max_mm) { continue; }
+        const auto [least, greatest] = ArcPath(*shape, position_, to).extent(i);
         within_travel(i, least);
         within_travel(i, greatest);
     }
@@ -234,6 +251,7 @@ ProgramMove ProgramBuilder::move_to(const std::vector<double>& to, double feed, 
 /// The feed of a ProgramMove is along the path of all axes. Returns the one with which the linear axes move at F.
 double ProgramBuilder::feed_along_path(const ProgramMove& move) const {
     const std::vector<double>& target = move.target_mm;
+    if (!moves_rotary(setup_, position_, target)) { return std::min(move.feed_mm_s, kMaxFeed_mm_s); }
     double linear = move.arc ? ArcPath(*move.arc, position_, target).plane_length_mm() : 0;
     double rotary = 0;
     for (std::size_t i = 0; i < target.size(); ++i) {

@@ -84,22 +84,44 @@ double IntervalBounds::least_after(double w0) const {
 
 /// Overrides scale the feed. In rapid moves they scale the speeds that the axes allow, and never exceed these.
 double IntervalBounds::cap(const Overrides& overrides) const {
-    const double most = piece_->shape.most_mm_per_tick * piece_->shape.most_mm_per_tick;
-    if (!piece_->shape.feed_mm_per_tick) { return std::min(most, limit(std::min(1.0, overrides.rapid()))); }
-    const double feed = *piece_->shape.feed_mm_per_tick * (piece_->shape.is_feed_fixed ? 1 : overrides.feed());
-    return std::min({feed * feed, most, limit()});
+    return std::min(cap_but_speeds(overrides), speed_limit(speed_share(overrides)));
 }
 
-double IntervalBounds::limit(double speed_share) const {
+std::optional<double> IntervalBounds::common_cap(const Overrides& overrides) const {
+    const double w = cap_but_speeds(overrides);
+    return speed_limit(speed_share(overrides)) < w ? std::nullopt : std::optional(w);
+}
+
+double IntervalBounds::speed_share(const Overrides& overrides) const {
+    return piece_->shape.feed_mm_per_tick ? 1 : std::min(1.0, overrides.rapid());
+}
+
+/// The greatest w by feed, overrides and bends.
+double IntervalBounds::cap_but_speeds(const Overrides& overrides) const {
+    collect();
+    const Quadratic& shape = piece_->shape;
+    const double w = std::min(bend_limit_, shape.most_mm_per_tick * shape.most_mm_per_tick);
+    if (!shape.feed_mm_per_tick) { return w; }
+    const double feed = *shape.feed_mm_per_tick * (shape.is_feed_fixed ? 1 : overrides.feed());
+    return std::min(w, feed * feed);
+}
+
+double IntervalBounds::limit() const {
+    const double w = speed_limit(1);
+    return std::min(w, bend_limit_);
+}
+
+/// The greatest w at which each axis keeps a share of its greatest speed.
+double IntervalBounds::speed_limit(double share) const {
     collect();
     const Quadratic& shape = piece_->shape;
     const double from = interval_->from - shape.length / 2;
     const double to = interval_->to - shape.length / 2;
     const double curved_share = shape.is_straight ? 1 : kCurvedSpeedShare;
-    double w = bend_limit_;
+    double w = kUnbounded;
     for (const Row& row : rows_) {
         const double slope = std::max(std::abs(row.slope + row.bend * from), std::abs(row.slope + row.bend * to));
-        const double speed = row.max_velocity * speed_share * curved_share;
+        const double speed = row.max_velocity * share * curved_share;
         if (slope > kNothing) { w = std::min(w, speed * speed / (slope * slope)); }
     }
     return w;

@@ -13,6 +13,8 @@
 // On a straight piece the limits are the same everywhere. It is one interval that accelerates, cruises and brakes.
 #pragma once
 
+#include <optional>
+
 #include "core/overrides.hpp"
 #include "core/path/geometry/quadratic.hpp"
 #include "core/path/path_setup.hpp"
@@ -46,6 +48,7 @@ struct Interval {
     double jump = 0;   // greatest jump of an axis at its beginning over its start velocity, per mm per tick
     double joint = 0;  // greatest w that the jump at its beginning allows
     double reach = 0;  // greatest w at its beginning from which all later limits can be kept
+    bool may_cruise = true;  // each constant speed up to the top keeps the limits
 
     double length() const { return to - from; }
 };
@@ -72,8 +75,10 @@ public:
     double least_after(double w0) const;
     /// The greatest w anywhere in it that feed, overrides and axes allow.
     double cap(const Overrides& overrides) const;
-    /// The greatest w anywhere in it that the axes allow at a share of their greatest speeds.
-    double limit(double speed_share = 1) const;
+    /// The same for each part of it, if it is not the speed of an axis that limits it; otherwise nullopt.
+    std::optional<double> common_cap(const Overrides& overrides) const;
+    /// The greatest w anywhere in it that the axes allow.
+    double limit() const;
 
 private:
     /// A row that moves along the piece.
@@ -85,6 +90,9 @@ private:
         double max_velocity;
     };
     void collect() const;
+    double cap_but_speeds(const Overrides& overrides) const;
+    double speed_share(const Overrides& overrides) const;
+    double speed_limit(double share) const;
     template <typename Visit>
     void each_bound(Visit visit) const;
 

@@ -250,11 +250,16 @@ void SpeedWindow::cut_piece(std::size_t k, const Neighbours& beside) {
         return of == parts ? shape.length : from + length * static_cast<double>(of) / static_cast<double>(parts);
     };
     IntervalBounds bounds(setup_, piece, part);
+    part.from = from;
+    part.to = shape.length;
+    std::optional<double> common;
+    if (part.kind == IntervalKind::Rest) { common = kMost; }
+    if (parts > 1) { common = bounds.common_cap(overrides_); }
     part.to = from;
     for (std::size_t number = 0; number < parts; ++number) {
         part.from = part.to;
         part.to = place(number + 1);
-        part.top = part.kind == IntervalKind::Rest ? kMost : bounds.cap(overrides_);
+        part.top = common ? *common : bounds.cap(overrides_);
         part.cap = std::min(cap, part.top);
         if (number == 0 && !intervals_.empty()) { part.cap = std::min(part.cap, intervals_.back().top); }
         intervals_.push_back(part);
@@ -286,13 +291,18 @@ std::size_t SpeedWindow::known() const {
     return final_ > first_ ? final_ - 1 : first_;
 }
 
-/// A reach that differs from the cap only by rounding is set to the cap, because whether a place is final must not
+/// Each constant speed up to the top can be kept, so an interval whose end may be as fast as its beginning needs no look
+/// at its bounds. A reach that differs from the cap only by rounding is set to the cap, because whether a place is final must not
 /// depend on where the pass began.
 void SpeedWindow::update(std::size_t first, std::size_t last) {
     double behind = reach_behind(last);
     IntervalBounds bounds = this->bounds(interval(last));
     for (std::size_t k = last + 1; k-- > first; behind = interval(k).reach) {
         Interval& part = intervals_[k - first_];
+        if (part.may_cruise && behind >= part.cap) {
+            part.reach = part.cap;
+            continue;
+        }
         bounds.take(piece_of(part), part);
         const double reach = bounds.before(behind);
         part.reach = reach < (1 - kRounding) * part.cap ? reach : part.cap;

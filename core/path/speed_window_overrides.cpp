@@ -83,6 +83,7 @@ OverrideResult SpeedWindow::allow_braking(std::size_t number, double w) {
             return OverrideResult::CannotFollow;
         }
         part.cap = std::max(part.cap, w);
+        part.may_cruise = false;
         if (is_rest) { return OverrideResult::Taken; }
         const double behind = bounds(part).least_after(w);
         if (split_braking(k, w)) {

@@ -39,6 +39,13 @@ std::int64_t whole_steps(double steps) {
     return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
 }
 
+double length_of_arc(const ProgramMove& arc, const AxisCounts& from, std::span<const std::size_t> axes,
+                     std::span<const double> steps_per_mm) {
+    StaticVector<double, kMaxAxes> from_mm;
+    for (const std::size_t axis : axes) { from_mm.append(static_cast<double>(from[axis]) / steps_per_mm[axis]); }
+    return length_mm(arc, {from_mm.begin(), from_mm.size()});
+}
+
 void end(Leg& leg, std::uint32_t before, const AxisCounts& at) {
     leg.end = before;
     leg.to = at;
@@ -173,12 +180,7 @@ PathMove ProgramPlanner::path_move(const ProgramMove& linear, const AxisCounts& 
 
 /// An arc has a length even if its ends are the same.
 void ProgramPlanner::note_arc(const ProgramMove& arc, const std::vector<std::size_t>& axes, PathMove& move) const {
-    std::vector<double> from_mm;
-    from_mm.reserve(axes.size());
-    for (const std::size_t axis : axes) {
-        from_mm.push_back(to_mm(machine_.axes[axis], static_cast<double>(move.from[axis])));
-    }
-    move.length_mm = length_mm(arc, from_mm);
+    move.length_mm = length_of_arc(arc, move.from, axes, steps_per_mm_);
     move.lead = std::max<std::int64_t>(move.lead, 1);
 }
 
@@ -269,7 +271,7 @@ std::expected<std::optional<double>, PlanError> ProgramPlanner::length_of(const 
                                                                           AxisCounts& at) const {
     const auto* move = std::get_if<ProgramMove>(&block.action);
     if (move == nullptr) { return std::nullopt; }
-    if (move->arc || coordination_of(machine_).has_least_feed) {
+    if (coordination_of(machine_).has_least_feed) {
         const auto whole = move_of(block, number, axes, at);
         if (!whole) { return std::unexpected(whole.error()); }
         return *whole && (*whole)->lead != 0 ? std::optional((*whole)->length_mm) : std::nullopt;
@@ -278,6 +280,7 @@ std::expected<std::optional<double>, PlanError> ProgramPlanner::length_of(const 
     const auto to = target(*move, axes, from, block.line);
     if (!to) { return std::unexpected(to.error()); }
     at = *to;
+    if (move->arc) { return length_of_arc(*move, from, axes, steps_per_mm_); }
     double square = 0;
     for (const std::size_t axis : axes) {
         const double mm = static_cast<double>(at[axis] - from[axis]) / steps_per_mm_[axis];

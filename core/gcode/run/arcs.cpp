@@ -93,6 +93,18 @@ Result check_words(const Context& context, PlaneAxes axes) {
     return {};
 }
 
+/// A feed per minute does not depend on the arc's length.
+double feed_of_arc(const Context& context, PlaneAxes axes, const ArcMove& move) {
+    const State& state = context.state;
+    const Flat from = in_plane(axes, state.program);
+    const double radius = length_of(from - move.centre);
+    if (state.modal.feed_mode == FeedMode::PerMinute) { return feed_of(context, state.program, move.target, radius); }
+    const int turns = std::abs(move.turns);
+    const double sweep = sweep_of(from, move.centre, in_plane(axes, move.target), move.turns > 0, turns);
+    const double rise = move.target[axes.normal] - state.program[axes.normal];
+    return feed_of(context, state.program, move.target, std::hypot(sweep * radius, rise));
+}
+
 }  // namespace
 
 Vector turned_axis(const State& state, std::size_t normal) {
@@ -112,17 +124,12 @@ void move_arc(Context& context, const ArcMove& move) {
     centre[axes.second] = move.centre.y;
     centre[axes.normal] = state.program[axes.normal];
     const Point at = to_machine(state.offsets, centre);
-    const Flat from = in_plane(axes, state.program);
-    const int turns = std::abs(move.turns);
-    const double sweep = sweep_of(from, move.centre, in_plane(axes, move.target), move.turns > 0, turns);
-    const double rise = move.target[axes.normal] - state.program[axes.normal];
-    const double path = std::hypot(sweep * length_of(from - move.centre), rise);
     const Point target = machine_target(state, move.target);
     context.emit(Arc{.target = target,
                      .centre = {at[0], at[1], at[2]},
                      .axis = turned_axis(state, axes.normal),
                      .turns = move.turns,
-                     .feed = feed_of(context, state.program, move.target, path)});
+                     .feed = feed_of_arc(context, axes, move)});
     state.machine = target;
     state.program = move.target;
 }

@@ -22,17 +22,22 @@ inline TravelEnds travel_ends_of(const AxisLimits& axis) {
 }
 
 /// Reduces the bend of a piece that leads beyond the travel; its ends must be within. A parabola through (0, x0) and
-/// (L, x1) touches a line that is p and q away from them if its bend is 2 (sqrt p + sqrt q)^2 / L^2.
+/// (L, x1) touches a line that is p and q away from them if its bend is 2 (sqrt p + sqrt q)^2 / L^2, which is more than
+/// 2 (p + q) / L^2.
 inline void keep_within_travel(const PathSetup& setup, Quadratic& piece) {
     const auto most = [&piece](double p, double q) {
         const double root = (std::sqrt(std::max(p, 0.0)) + std::sqrt(std::max(q, 0.0))) / piece.length;
         return 2 * root * root;
     };
+    constexpr double kCertain = 2 - 1e-9;  // 2, with room for rounding
     for (std::size_t i = 0; i < setup.axes(); ++i) {
         if (piece.bend[i] == 0) { continue; }
         const TravelEnds travel = travel_ends_of(setup.limits_of_axis(i));
         const double begin = piece.from[i];
         const double end = piece.place(i, piece.length);
+        const double up = travel.greatest - begin + travel.greatest - end;
+        const double down = begin - travel.least + end - travel.least;
+        if (std::abs(piece.bend[i]) * piece.length * piece.length < kCertain * std::min(up, down)) { continue; }
         piece.bend[i] = std::clamp(piece.bend[i], -most(travel.greatest - begin, travel.greatest - end),
                                    most(begin - travel.least, end - travel.least));
     }

@@ -62,10 +62,28 @@ void PathTimer::pass_known() {
     IntervalBounds bounds = window_.bounds(window_.interval(next_));
     for (; next_ < known; ++next_) {
         const Interval& part = window_.interval(next_);
-        bounds.take(window_.piece_of(part), part);
-        pass(part, std::min(window_.reach_behind(next_), bounds.after(w_)));
+        const double w1 = speed_behind(part, bounds);
+        const bool cruises = part.kind == IntervalKind::Curved && w1 == w_;
+        cruises ? pass(cruise(part, known), w1) : pass(part, w1);
     }
     window_.drop_before(next_);
+}
+
+/// The square of the speed at the end of the next interval. Only a faster end depends on its bounds.
+double PathTimer::speed_behind(const Interval& part, IntervalBounds& bounds) const {
+    const double reach = window_.reach_behind(next_);
+    if (reach <= w_ && part.kind == IntervalKind::Curved) { return reach; }
+    bounds.take(window_.piece_of(part), part);
+    return std::min(reach, bounds.after(w_));
+}
+
+/// An interval together with those behind it on the same piece that are passed at the same speed.
+Interval PathTimer::cruise(const Interval& part, std::size_t known) {
+    Interval whole = part;
+    while (next_ + 1 < known && window_.interval(next_ + 1).piece == part.piece && window_.reach_behind(next_ + 1) == w_) {
+        whole.to = window_.interval(++next_).to;
+    }
+    return whole;
 }
 
 void PathTimer::pass(const Interval& part, double w1) {
@@ -73,8 +91,8 @@ void PathTimer::pass(const Interval& part, double w1) {
     piece_ = part.piece + 1;
     if (is_first && !turns_.empty()) { note_turn(); }
     const JoinedPiece& piece = window_.piece_of(part);
-    PassedInterval passed{
-        .piece = piece, .part = part, .v0 = v_, .v1 = std::sqrt(w1), .top = std::max(v_, std::sqrt(w1))};
+    const double v1 = w1 == w_ ? v_ : std::sqrt(w1);
+    PassedInterval passed{.piece = piece, .part = part, .v0 = v_, .v1 = v1, .top = std::max(v_, v1)};
     switch (part.kind) {
         case IntervalKind::Rest: ticks_ += static_cast<double>(piece.shape.rest.value); break;
         case IntervalKind::Curved: ticks_ += ticks_over(part.length(), passed.v0, passed.v1); break;

@@ -40,6 +40,8 @@ private:
     void pass_arc() override;
     void end() override;
     void pass_known();
+    double speed_behind(const Interval& part, IntervalBounds& bounds) const;
+    Interval cruise(const Interval& part, std::size_t known);
     void pass(const Interval& part, double w1);
     void note_turn();
     void cut_turn();
