@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kQuarterTurn = std::numbers::pi / 2;
 constexpr double kWhole = 2 * std::numbers::pi;
-// An arc with closer ends is a whole turn, as in core/path/geometry/arc_cutter.cpp.
+// An arc with closer ends is a whole turn, as in core/path/geometry/arc_sweep.cpp.
 constexpr double kSameAngle = 1e-9;  // rad
 constexpr double kMostChords = 100'000;
 constexpr double kWithRounding = 1 + 1e-6;

@@ -206,8 +206,8 @@ void ProgramBuilder::arc(const Arc& arc) {
     const ArcRadii radii(*shape, position_, to);
     if (is_short(*shape, position_, to)) { return move(arc.target, arc.feed, false); }
     if (const std::string why = why_no_arc(radii.begin, radii.end); !why.empty()) { return fail("the arc " + why); }
-    for (const auto& [i, centre] : {std::pair(shape->first, shape->centre_first_mm),
-                                    std::pair(shape->second, shape->centre_second_mm)}) {
+    for (const auto& [i, centre] :
+         {std::pair(shape->first, shape->centre_first_mm), std::pair(shape->second, shape->centre_second_mm)}) {
         const GcodeAxis& axis = setup_.axes[i];
         if (centre - radii.greatest() >= axis.min_mm && centre + radii.greatest() <= axis.max_mm) { continue; }
         const auto [least, greatest] = ArcPath(*shape, position_, to).extent(i);

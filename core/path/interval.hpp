@@ -45,9 +45,9 @@ struct Interval {
     double top = 0;           // greatest w anywhere in it
     double acceleration = 0;  // mm per tick^2; Straight only
     double deceleration = 0;
-    double jump = 0;   // greatest jump of an axis at its beginning over its start velocity, per mm per tick
-    double joint = 0;  // greatest w that the jump at its beginning allows
-    double reach = 0;  // greatest w at its beginning from which all later limits can be kept
+    double jump = 0;         // greatest jump of an axis at its beginning over its start velocity, per mm per tick
+    double joint = 0;        // greatest w that the jump at its beginning allows
+    double reach = 0;        // greatest w at its beginning from which all later limits can be kept
     bool may_cruise = true;  // each constant speed up to the top keeps the limits
 
     double length() const { return to - from; }

@@ -32,9 +32,10 @@ bool SpeedWindow::may_rise(std::size_t piece) const {
     const std::size_t k = piece - first_piece_;
     const JoinedPiece& begun = pieces_[k];
     JoinedPiece turned = begun;
-    const Quadratic* before = k > 0 ? &pieces_[k - 1].shape : nullptr;
-    const Quadratic* next = shape_at(k + 1);
-    charge(turned, {before, next, joint(before, &turned.shape), joint(&turned.shape, next)});
+    Neighbours beside = this->beside(k);
+    beside.begin = joints().joint(beside.before, &turned.shape, beside.from);
+    beside.end = joint_at_end(k);
+    joints().charge(turned, beside);
     const auto is_paid = [&](std::size_t axis, const JoinedPiece& as) {
         return as.is_charged && as.charged.begin()[axis] != as.shape.bend.begin()[axis];
     };
@@ -105,7 +106,7 @@ bool SpeedWindow::split_braking(std::size_t number, double w) {
     Interval rest = part;
     rest.from = part.from + mm;
     rest.cap = part.top;
-    rest.joint = kMost;
+    rest.joint = PieceJoints::kMost;
     rest.jump = 0;
     part.to = rest.from;
     intervals_.insert(number + 1 - first_, rest);

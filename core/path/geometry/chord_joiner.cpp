@@ -16,7 +16,9 @@ constexpr double kMostShift = 0.95;  // of the tolerance
 
 void ChordJoiner::begin(const AxisVector& at) {
     points_.clear();
-    points_.push_back({.at = at});
+    PathPoint first;  // not PathPoint{}, which would clear its unused room
+    first.at = at;
+    points_.push_back(first);
     end_ = start_at_ = at;
     moving_ = 0;
     start_ = behind_ = ahead_ = scanned_ = needed_ = 0;

@@ -40,9 +40,7 @@ public:
 
     /// As in ArcCutter. 0 if the turns of the arc do not repeat, and if a motor may follow an axis of the arc's plane
     /// and another one together: then its steps do not repeat.
-    int turns_that_repeat() const {
-        return has_more() && !setup_.has_map() && arc_.repeats(setup_) ? arc_.turns_left() : 0;
-    }
+    int turns_that_repeat() const { return has_more() && !setup_.has_map() && arc_.repeats() ? arc_.turns_left() : 0; }
     const ArcShape& arc() const { return arc_.shape(); }
     void skip_turns(int turns) { arc_.skip(setup_, turns); }
 

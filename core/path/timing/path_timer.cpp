@@ -80,7 +80,8 @@ double PathTimer::speed_behind(const Interval& part, IntervalBounds& bounds) con
 /// An interval together with those behind it on the same piece that are passed at the same speed.
 Interval PathTimer::cruise(const Interval& part, std::size_t known) {
     Interval whole = part;
-    while (next_ + 1 < known && window_.interval(next_ + 1).piece == part.piece && window_.reach_behind(next_ + 1) == w_) {
+    while (next_ + 1 < known && window_.interval(next_ + 1).piece == part.piece &&
+           window_.reach_behind(next_ + 1) == w_) {
         whole.to = window_.interval(++next_).to;
     }
     return whole;
