@@ -20,15 +20,26 @@ void IntervalBounds::collect() const {
     if (std::exchange(is_collected_, true)) { return; }
     const JoinedPiece& piece = *piece_;
     rows_.clear();
-    bend_limit_ = kUnbounded;
+    bend_limit_.reset();
     each_of(piece.rows & all_axes(setup_.rows()), [&](std::size_t i) {
         const AxisLimits& limits = setup_.limits[i];
-        const double own = piece.shape.bend.begin()[i];
         const double charged = piece.is_charged ? piece.charged.begin()[i] : 0;
-        rows_.append({piece.shape.slope.begin()[i], own, charged, 2 * weaker(limits), limits.max_velocity});
-        const double bend = std::max(std::abs(own), piece.is_charged ? std::abs(charged) / kChargedShare : 0);
-        if (bend > kNothing) { bend_limit_ = std::min(bend_limit_, weaker(limits) / bend); }
+        rows_.append({piece.shape.slope.begin()[i], piece.shape.bend.begin()[i], charged, 2 * weaker(limits),
+                      limits.max_velocity});
     });
+}
+
+/// The greatest w that bends and charges allow.
+double IntervalBounds::bend_limit() const {
+    collect();
+    if (bend_limit_) { return *bend_limit_; }
+    double w = kUnbounded;
+    for (const Row& row : rows_) {
+        const double bend = std::max(std::abs(row.bend), std::abs(row.charged) / kChargedShare);
+        if (bend > kNothing) { w = std::min(w, row.twice_weaker / 2 / bend); }
+    }
+    bend_limit_ = w;
+    return w;
 }
 
 /// Calls visit(p, q, 2 d a) for each bound |q w1 - p w0| <= 2 d a: at the interval's beginning and end with the axis's
@@ -98,18 +109,14 @@ double IntervalBounds::speed_share(const Overrides& overrides) const {
 
 /// The greatest w by feed, overrides and bends.
 double IntervalBounds::cap_but_speeds(const Overrides& overrides) const {
-    collect();
     const Quadratic& shape = piece_->shape;
-    const double w = std::min(bend_limit_, shape.most_mm_per_tick * shape.most_mm_per_tick);
+    const double w = std::min(bend_limit(), shape.most_mm_per_tick * shape.most_mm_per_tick);
     if (!shape.feed_mm_per_tick) { return w; }
     const double feed = *shape.feed_mm_per_tick * (shape.is_feed_fixed ? 1 : overrides.feed());
     return std::min(w, feed * feed);
 }
 
-double IntervalBounds::limit() const {
-    const double w = speed_limit(1);
-    return std::min(w, bend_limit_);
-}
+double IntervalBounds::limit() const { return std::min(speed_limit(1), bend_limit()); }
 
 /// The greatest w at which each axis keeps a share of its greatest speed.
 double IntervalBounds::speed_limit(double share) const {

@@ -90,6 +90,7 @@ private:
         double max_velocity;
     };
     void collect() const;
+    double bend_limit() const;
     double cap_but_speeds(const Overrides& overrides) const;
     double speed_share(const Overrides& overrides) const;
     double speed_limit(double share) const;
@@ -102,7 +103,7 @@ private:
     // Mutable because they are collected when they are first needed.
     mutable bool is_collected_ = false;
     mutable StaticVector<Row, kMaxAxes> rows_;
-    mutable double bend_limit_ = 0;  // the greatest w that bends and charges allow
+    mutable std::optional<double> bend_limit_;
 };
 
 }  // namespace lockstep

@@ -1,6 +1,7 @@
 #include "core/gcode/curves/spline_arcs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -10,8 +11,7 @@
 namespace lockstep::gcode {
 namespace {
 
-constexpr int kMostHalvings = 14;   // of half a span, at most
-constexpr std::size_t kChecks = 7;  // checked places between the ends of a part
+constexpr int kMostHalvings = 14;  // of half a span, at most
 
 Flat xy_of(const Vector& at) { return {at[0], at[1]}; }
 Flat unit(Flat a) { return dot(a, a) > 0 ? a * (1 / length_of(a)) : Flat{}; }
@@ -85,58 +85,60 @@ public:
     void cut() {
         for (span_ = 0; span_ < curve_.spans(); ++span_) {
             const auto low = static_cast<double>(span_);
-            halve(low, low + 0.5, kMostHalvings);
-            halve(low + 0.5, low + 1, kMostHalvings);
+            const Spot middle = spot(low + 0.5);
+            Spot end = spot(low + 1);
+            if (span_ + 1 == curve_.spans()) { end.at = {spline_.target[0], spline_.target[1]}; }
+            halve({spot(low), middle, low, low + 0.5}, kMostHalvings);
+            halve({middle, end, low + 0.5, low + 1}, kMostHalvings);
         }
     }
 
 private:
-    void halve(double low, double high, int halvings) {
-        const Part part = part_of(low, high);
-        const FlatArc line = FlatArc::line(begin_, part.end.at);
-        if (halvings == 0 || is_near(part, line, line)) { return add(line); }
-        if (try_arcs(part)) { return; }
-        const double middle = (low + high) / 2;
-        halve(low, middle, halvings - 1);
-        halve(middle, high, halvings - 1);
-    }
-
     struct Part {
         Spot begin;
         Spot end;
-        std::array<Flat, kChecks> between;
+        double low;
+        double high;
     };
 
-    Part part_of(double low, double high) const {
-        Part part{spot(low), spot(high), {}};
+    void halve(Part part, int halvings) {
         part.begin.at = begin_;
-        if (high == static_cast<double>(curve_.spans())) { part.end.at = {spline_.target[0], spline_.target[1]}; }
-        for (std::size_t k = 0; k < kChecks; ++k) {
-            part.between[k] = spot(low + (high - low) * static_cast<double>(k + 1) / (kChecks + 1)).at;
-        }
-        return part;
+        const FlatArc line = FlatArc::line(begin_, part.end.at);
+        if (halvings == 0) { return add(line); }
+        const double middle = (part.low + part.high) / 2;
+        const Spot half_way = spot(middle);
+        if (is_near(part, half_way.at, line, line)) { return add(line); }
+        if (try_arcs(part, half_way.at)) { return; }
+        halve({part.begin, half_way, part.low, middle}, halvings - 1);
+        halve({half_way, part.end, middle, part.high}, halvings - 1);
     }
 
+    Flat place(double parameter) const { return xy_of(curve_.in_span(span_, parameter).at); }
     Spot spot(double parameter) const {
         const SplineCurve::Spot spot = curve_.in_span(span_, parameter);
         return {xy_of(spot.at), unit(xy_of(spot.direction))};
     }
 
-    bool try_arcs(const Part& part) {
+    bool try_arcs(const Part& part, Flat half_way) {
         if (part.begin.direction == Flat{} || part.end.direction == Flat{}) { return false; }
         const Spot middle = meeting(part.begin, part.end);
         const auto first = FlatArc::from_to(part.begin, middle.at);
         const auto second = FlatArc::from_to(middle, part.end.at);
-        if (!first || !second || !is_near(part, *first, *second)) { return false; }
+        if (!first || !second || !is_near(part, half_way, *first, *second)) { return false; }
         add(*first);
         add(*second);
         return true;
     }
 
-    static bool is_near(const Part& part, const FlatArc& first, const FlatArc& second) {
-        return std::ranges::all_of(part.between, [&](Flat place) {
-            return std::min(first.distance(place), second.distance(place)) <= kSplineArcs_mm / 2;
-        });
+    /// Checks seven places between the ends. Arcs that are too long are mostly too far from the first one.
+    bool is_near(const Part& part, Flat half_way, const FlatArc& first, const FlatArc& second) const {
+        const auto is_near_to = [&](Flat place) {
+            return first.distance(place) <= kSplineArcs_mm / 2 || second.distance(place) <= kSplineArcs_mm / 2;
+        };
+        constexpr std::array kEighths{2.0, 6.0, 1.0, 3.0, 5.0, 7.0};
+        return is_near_to(half_way) && std::ranges::all_of(kEighths, [&](double eighths) {
+                   return is_near_to(place(part.low + (part.high - part.low) * eighths / 8));
+               });
     }
 
     void add(const FlatArc& arc) {

@@ -96,9 +96,9 @@ Result check_words(const Context& context, PlaneAxes axes) {
 /// A feed per minute does not depend on the arc's length.
 double feed_of_arc(const Context& context, PlaneAxes axes, const ArcMove& move) {
     const State& state = context.state;
+    if (state.modal.feed_mode == FeedMode::PerMinute) { return state.modal.feed_linear; }
     const Flat from = in_plane(axes, state.program);
     const double radius = length_of(from - move.centre);
-    if (state.modal.feed_mode == FeedMode::PerMinute) { return feed_of(context, state.program, move.target, radius); }
     const int turns = std::abs(move.turns);
     const double sweep = sweep_of(from, move.centre, in_plane(axes, move.target), move.turns > 0, turns);
     const double rise = move.target[axes.normal] - state.program[axes.normal];

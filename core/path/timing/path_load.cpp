@@ -79,6 +79,7 @@ void PathLoad::note_curved(const PassedInterval& passed) {
     const double middle = (passed.part.from + passed.part.to) / 2;
     const double w0 = passed.v0 * passed.v0;
     const double w1 = passed.v1 * passed.v1;
+    const double half_per_mm = 1 / (2 * d);
     each_of(passed.piece.rows & all_axes(axes_.size()), [&](std::size_t i) {
         const double slope = passed.piece.shape.slope_at(i, middle);
         const double bend = passed.piece.shape.bend.begin()[i] * d;
@@ -91,7 +92,7 @@ void PathLoad::note_curved(const PassedInterval& passed) {
             const double charged = passed.piece.charged.begin()[i] * d;
             raise(change, std::abs(w1 * (slope + charged) - w0 * (slope - charged)));
         }
-        raise(axes_[i].peak_acceleration, change / (2 * d));
+        raise(axes_[i].peak_acceleration, change * half_per_mm);
     });
 }
 
