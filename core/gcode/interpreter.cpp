@@ -6,6 +6,29 @@
 #include "core/gcode/run/steps.hpp"
 
 namespace lockstep::gcode {
+namespace {
+
+/// A % before the program opens it, the next one ends it. Only comments may be on its line.
+Result percent_is_alone(const Line& line) {
+    for (std::size_t at = 1; at < line.text().size(); at = line.end_of_comment(at)) {
+        if (line.at(at) != '(') { return std::unexpected(line.error(at, "a % must be alone on its line")); }
+    }
+    return {};
+}
+
+Result assign(const std::vector<Assignment>& assignments, const Line& line, Parameters& parameters) {
+    for (const Assignment& assignment : assignments) {
+        const bool is_read_only =
+            std::visit([&](const auto& parameter) { return parameters.is_read_only(parameter); }, assignment.parameter);
+        if (is_read_only) {
+            return std::unexpected(line.error(line.text().find('#'), "this parameter can only be read"));
+        }
+        std::visit([&](const auto& parameter) { parameters.set(parameter, assignment.value); }, assignment.parameter);
+    }
+    return {};
+}
+
+}  // namespace
 
 Interpreter::Interpreter(Setup setup, State state, Sink sink)
     : Interpreter(std::move(setup), Memory{.state = std::move(state)}, std::move(sink)) {
@@ -16,25 +39,18 @@ Interpreter::Interpreter(Setup setup, Memory memory, Sink sink)
     : setup_(std::move(setup)),
       state_(std::move(memory.state)),
       sink_([this, take = std::move(sink)](const Action& action, int line) {
-          idle_lines_ = 0;
-          repeated_lines_ += levels_.empty() ? 0 : 1;
+          count_.add_action(is_within_body());
           take(action, line);
       }),
-      parameters_(state_.parameters, *this, std::move(memory.local)),
-      kept_(std::move(memory.kept)),
-      returned_(memory.returned),
-      has_returned_(memory.has_returned) {}
+      system_(state_, stack_, line_),
+      parameters_(state_.parameters, system_, std::move(memory.local)),
+      bodies_(setup_, parameters_),
+      stack_(parameters_, std::move(memory.kept), memory.returned),
+      labels_(setup_.limits.kept_lines),
+      count_(setup_.limits) {}
 
 Memory Interpreter::memory() const {
-    return {.state = state_,
-            .local = parameters_.local(),
-            .kept = kept_,
-            .returned = returned_,
-            .has_returned = has_returned_};
-}
-
-std::unexpected<GcodeError> Interpreter::error(std::size_t place, std::string message) const {
-    return std::unexpected(line_.error(place, std::move(message)));
+    return {.state = state_, .local = parameters_.local(), .kept = stack_.kept(), .returned = stack_.returned()};
 }
 
 Result Interpreter::take(std::string_view text, int number) {
@@ -43,70 +59,104 @@ Result Interpreter::take(std::string_view text, int number) {
     block_.clear();
     if (auto wrong = line_.read(text, number)) { return std::unexpected(*std::move(wrong)); }
     if (line_.text().empty()) { return {}; }
-    return take_line(text);
+    if (line_.at(0) != '%') { return take_line(text); }
+    if (auto alone = percent_is_alone(line_); !alone) { return alone; }
+    return std::exchange(begun_, true) ? finish() : Result{};
 }
 
 Result Interpreter::take_line(std::string_view text) {
-    if (line_.at(0) == '%') { return take_percent(); }
     Reader reader(line_, parameters_);
-    const bool is_done = skip_head(reader);
+    const bool is_run = skip_head(line_, reader, setup_.skip_deletable);
     if (reader.error()) { return std::unexpected(*reader.error()); }
-    if (reader.peek() == 'O' && is_done) {
-        begun_ = true;
-        const OWord word = read_o_word(reader);
-        if (reader.error()) { return std::unexpected(*reader.error()); }
-        if (recorder_.active()) { return keep(word, text); }
-        return do_o_word(reader, word);
-    }
-    if (recorder_.active()) { return keep({}, text); }
-    return is_done ? do_plain(reader) : Result{};
+    if (reader.peek() == 'O' && is_run) { return take_o_word(reader, text); }
+    if (bodies_.is_recording()) { return store({}, text); }
+    return is_run ? run_plain(reader) : Result{};
 }
 
-/// A % before the program opens it, the next one ends it.
-Result Interpreter::take_percent() {
-    for (std::size_t at = 1; at < line_.text().size(); at = line_.end_of_comment(at)) {
-        if (line_.at(at) != '(') { return error(at, "a % must be alone on its line"); }
-    }
-    if (begun_) { return finish(); }
+Result Interpreter::take_o_word(Reader& reader, std::string_view text) {
     begun_ = true;
+    const OWord word = read_o_word(reader);
+    if (reader.error()) { return std::unexpected(*reader.error()); }
+    if (bodies_.is_recording()) { return store(word, text); }
+    if (word.keyword == Keyword::Number) { return nothing_follows(reader); }
+    if (word.keyword != Keyword::Call) { return store(word, text); }
+    if (auto called = call(reader, word); !called) { return called; }
+    return run_bodies();
+}
+
+Result Interpreter::store(const OWord& word, std::string_view text) {
+    const auto loop = bodies_.take(line_, word, text);
+    if (!loop) { return std::unexpected(loop.error()); }
+    if (*loop == nullptr) { return {}; }
+    stack_.run(**loop);
+    return run_bodies();
+}
+
+Result Interpreter::call(Reader& reader, const OWord& word) {
+    if (!word.label) { return std::unexpected(word.label.error()); }
+    const Arguments arguments = read_arguments(reader);
+    if (auto empty = nothing_follows(reader); !empty) { return empty; }
+    const auto subroutine = bodies_.find(word, line_, program_line_);
+    if (!subroutine) { return std::unexpected(subroutine.error()); }
+    if (stack_.calls() >= setup_.limits.call_depth) {
+        return std::unexpected(line_.error(word.place, shown_call(word) + " is nested deeper than " +
+                                                           std::to_string(setup_.limits.call_depth) +
+                                                           " calls; check that it ends before it calls itself again"));
+    }
+    stack_.call(**subroutine, arguments);
     return {};
 }
 
-/// Skips comments before a /, block delete and line number. Returns false if the line must not be run.
-bool Interpreter::skip_head(const Line& line, Reader& reader) const {
-    std::size_t place = 0;
-    while (line.at(place) == '(') { place = line.end_of_comment(place); }
-    if (line.at(place) == '/') { reader.go_to(place); }
-    const bool is_deletable = reader.take('/');
-    const std::size_t begin = reader.place();
-    if (reader.take('N')) {
-        if (!is_of_number(reader.peek())) {
-            reader.fail(begin, word_text(line, begin) + " is not a line number; a line number must be 0 or above");
-            return true;
+/// Runs stored lines to their end, or to the next probing move.
+Result Interpreter::run_bodies() {
+    Result done;
+    while (done && is_within_body() && !ended_ && !awaits_touch_) {
+        BodyRun& run = stack_.innermost();
+        if (run.is_done()) {
+            if (const auto modes = stack_.modes_behind()) {
+                Context here = context();
+                restore(here, *modes);
+            }
+            stack_.end();
+            continue;
         }
-        (void)reader.word_value(begin);
+        const Body& body = run.body();
+        done = run_stored(run.take_line());
+        if (!done && !body.file.empty()) { done.error().message += " (in " + body.file + ")"; }
     }
-    return !(is_deletable && setup_.skip_deletable);
+    if (!done || !awaits_touch_) { stack_.end_all(); }
+    if (stack_.is_empty()) { bodies_.remove_loop(); }
+    return done;
 }
 
-Context Interpreter::context() {
-    KeptModes* kept = &kept_;
-    for (Level& level : levels_) { kept = level.is_call ? &level.kept : kept; }
-    return {setup_, state_, parameters_, sink_, line_, block_, *kept};
+Result Interpreter::run_stored(const KeptLine& kept) {
+    if (auto wrong = line_.read(kept.text, kept.number)) { return std::unexpected(*std::move(wrong)); }
+    if (auto wrong = count_.add_line()) { return std::unexpected(line_.error(0, *std::move(wrong))); }
+    Reader reader(line_, parameters_);
+    if (!skip_head(line_, reader, setup_.skip_deletable) || reader.done()) { return {}; }
+    if (kept.keyword == Keyword::None) { return run_plain(reader); }
+    const OWord word = read_o_word(reader);
+    if (reader.error()) { return std::unexpected(*reader.error()); }
+    if (kept.keyword == Keyword::Call) { return call(reader, word); }
+    if (kept.keyword == Keyword::Return || kept.keyword == Keyword::EndSub) { return stack_.leave(reader); }
+    if (opens(kept.keyword)) {
+        if (auto wrong = labels_.open(stack_.subroutine(), word, line_)) { return std::unexpected(*std::move(wrong)); }
+    }
+    return stack_.innermost().follow(reader);
 }
 
-Result Interpreter::do_plain(Reader& reader) {
+Context Interpreter::context() { return {setup_, state_, parameters_, sink_, line_, block_, stack_.kept()}; }
+
+Result Interpreter::run_plain(Reader& reader) {
     block_.clear();
     if (auto wrong = read_block(reader, line_, setup_.axes, block_)) { return std::unexpected(*std::move(wrong)); }
-    if (!block_.assignments.empty()) {
-        if (auto assigned = assign(); !assigned) { return assigned; }
-    }
+    if (auto assigned = assign(block_.assignments, line_, parameters_); !assigned) { return assigned; }
     Context here = context();
     auto done = run_block(here);
     if (done && state_.cutter.waiting.size() > kMostWaiting) {
-        done =
-            error(0, "more than " + std::to_string(kMostWaiting) +
-                         " blocks in sequence do not move in the plane of cutter compensation; write G40 before them");
+        done = std::unexpected(line_.error(
+            0, "more than " + std::to_string(kMostWaiting) +
+                   " blocks in sequence do not move in the plane of cutter compensation; write G40 before them"));
         state_.cutter.waiting.clear();
         leave_compensation(here);
     }
@@ -117,66 +167,15 @@ Result Interpreter::do_plain(Reader& reader) {
     return done;
 }
 
-Result Interpreter::assign() {
-    for (const Assignment& assignment : block_.assignments) {
-        const bool is_read_only = std::visit([&](const auto& parameter) { return parameters_.is_read_only(parameter); },
-                                             assignment.parameter);
-        if (is_read_only) { return error(line_.text().find('#'), "this parameter can only be read"); }
-        std::visit([&](const auto& parameter) { parameters_.set(parameter, assignment.value); }, assignment.parameter);
-    }
-    return {};
-}
-
-Result Interpreter::keep(const OWord& word, std::string_view text) {
-    if (word.keyword == Keyword::Sub && word.label && called_early_.contains(*word.label)) {
-        return error(word.place,
-                     "the subroutine " + *word.label +
-                         " is defined after its call, in lines that the program runs; define it before the call, "
-                         "or after M2");
-    }
-    if (++kept_lines_ > setup_.limits.kept_lines) {
-        recorder_.clear();
-        return error(0, "loops and subroutines have more than " + std::to_string(setup_.limits.kept_lines) +
-                            " lines; divide the program");
-    }
-    if (auto wrong = recorder_.take(line_, word, text)) { return std::unexpected(*std::move(wrong)); }
-    return recorder_.active() ? Result{} : close_body();
-}
-
-Result Interpreter::do_o_word(Reader& reader, const OWord& word) {
-    if (word.keyword == Keyword::Call) {
-        if (auto called = call(reader, word); !called) { return called; }
-        return run_on();
-    }
-    if (word.keyword == Keyword::Number) { return rest_is_empty(reader); }
-    return keep(word, line_.raw());
-}
-
-/// Stores a subroutine for its call. Runs any other body at once.
-Result Interpreter::close_body() {
-    const bool is_subroutine = recorder_.is_subroutine();
-    Body body = recorder_.take_body();
-    if (is_subroutine) {
-        subroutines_.insert_or_assign(body.label, std::move(body));
-        return {};
-    }
-    running_ = std::move(body);
-    levels_.push_back({.body = &*running_, .kept = {}, .repeats = {}});
-    return run_on();
-}
-
 Result Interpreter::go_on_behind(const Touch& touch) {
     awaits_touch_ = false;
     note_touch(state_, touch);
-    return run_on();
+    return run_bodies();
 }
 
 Result Interpreter::finish() {
     ended_ = true;
-    if (auto wrong = recorder_.unclosed()) {
-        recorder_.clear();
-        return std::unexpected(*std::move(wrong));
-    }
+    if (auto closed = bodies_.finish(); !closed) { return closed; }
     Context here = context();
     end_compensation(here);
     return {};

@@ -180,6 +180,22 @@ void LineWords::set(const Code& code, std::size_t place) {
     code_places_[group] = static_cast<std::uint16_t>(place);
 }
 
+bool skip_head(const Line& line, Reader& reader, bool skip_deletable) {
+    std::size_t place = 0;
+    while (line.at(place) == '(') { place = line.end_of_comment(place); }
+    if (line.at(place) == '/') { reader.go_to(place); }
+    const bool is_deletable = reader.take('/');
+    const std::size_t begin = reader.place();
+    if (reader.take('N')) {
+        if (!is_of_number(reader.peek())) {
+            reader.fail(begin, word_text(line, begin) + " is not a line number; a line number must be 0 or above");
+            return true;
+        }
+        (void)reader.word_value(begin);
+    }
+    return !(is_deletable && skip_deletable);
+}
+
 std::optional<GcodeError> read_block(Reader& reader, const Line& line, std::string_view axes, LineWords& block) {
     block.line = line.number();
     return BlockReader(reader, line, axes, block).read();

@@ -70,6 +70,9 @@ private:
     std::array<std::uint16_t, kGroups> code_places_{};
 };
 
+/// Skips comments before a /, block delete and line number. Returns false if the line must not be run.
+bool skip_head(const Line& line, Reader& reader, bool skip_deletable);
+
 /// Reads the rest of the line into a cleared block. `axes` are the letters of the machine's axes.
 std::optional<GcodeError> read_block(Reader& reader, const Line& line, std::string_view axes, LineWords& block);
 

@@ -12,7 +12,7 @@ namespace lockstep::gcode {
 
 /// A program that exceeds one of these is refused.
 struct Limits {
-    int call_depth = 10;                       // of subroutines that call each other
+    std::size_t call_depth = 10;               // of subroutines that call each other
     std::int64_t repeated_lines = 10'000'000;  // lines and actions of loops and subroutines, all together
     std::int64_t idle_lines = 1'000'000;       // lines of loops and subroutines without an action between them
     std::size_t kept_lines = 100'000;          // lines of loops and subroutines, all together

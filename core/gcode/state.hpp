@@ -84,6 +84,12 @@ struct SplineWords {
     Point end{};                    // the end of `nurbs` so far, in the program's coordinates
 };
 
+/// The modes stored by M70 or M73, separate for each subroutine call.
+struct KeptModes {
+    std::optional<Modal> modal;
+    bool restores_at_return = false;  // M73
+};
+
 struct State {
     Point machine{};  // where the axes stand
     Point program{};  // the same place in the program's coordinates

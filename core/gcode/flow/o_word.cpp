@@ -121,4 +121,30 @@ OWord read_o_word(Reader& reader) {
     return word;
 }
 
+Arguments read_arguments(Reader& reader) {
+    Arguments arguments{};
+    std::size_t count = 0;
+    while (!reader.done() && (reader.peek() == '[' || reader.peek() == '(')) {
+        if (reader.peek() == '(') {
+            reader.skip_comment();
+            continue;
+        }
+        const std::size_t place = reader.place();
+        const double value = reader.expression();
+        if (count == kArguments) {
+            reader.fail(place, "a call has at most " + std::to_string(kArguments) + " arguments");
+        }
+        if (!reader.error()) { arguments[count++] = value; }
+    }
+    return arguments;
+}
+
+Result nothing_follows(Reader& reader) {
+    while (reader.peek() == '(' && !reader.done()) { reader.skip_comment(); }
+    if (!reader.done() && !reader.error()) {
+        reader.fail(reader.place(), "nothing may follow on this line; use another line");
+    }
+    return reader.error() ? Result(std::unexpected(*reader.error())) : Result{};
+}
+
 }  // namespace lockstep::gcode

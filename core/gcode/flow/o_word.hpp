@@ -54,12 +54,18 @@ inline std::string shown_label(const OWord& word) { return "O" + word.written; }
 /// "O100 WHILE".
 std::string shown_word(const OWord& word, Keyword keyword);
 std::string shown_word(const OWord& word);
+/// "o<name> call", of a label that is known.
+inline std::string shown_call(const OWord& word) { return "o<" + *word.label + "> call"; }
 
 /// Whether two O-words of a body have the same label, as far as that is known before the body runs.
 bool same_label(const OWord& a, const OWord& b);
 
 /// Reads from the O to the end of the keyword. Arguments or a condition behind it are not read.
 OWord read_o_word(Reader& reader);
+/// Reads the arguments behind the keyword of a call, each in [ ].
+Arguments read_arguments(Reader& reader);
+/// Returns the reader's error, or one if anything but comments follows.
+Result nothing_follows(Reader& reader);
 /// The O-word of a line; nullopt if the line has none, or one that cannot be read. `raw` is the line without its end.
 std::optional<OWord> find_o_word(std::string_view raw);
 

@@ -1,7 +1,6 @@
 // The data of the steps of a block's execution.
 #pragma once
 
-#include <expected>
 #include <optional>
 #include <string>
 
@@ -11,14 +10,6 @@
 #include "core/gcode/state.hpp"
 
 namespace lockstep::gcode {
-
-using Result = std::expected<void, GcodeError>;
-
-/// The modes stored by M70 or M73, separate for each subroutine call.
-struct KeptModes {
-    std::optional<Modal> modal;
-    bool restores_at_return = false;  // M73
-};
 
 struct Context {
     const Setup& setup;

@@ -1,6 +1,7 @@
 // An error in a G-code text.
 #pragma once
 
+#include <expected>
 #include <string>
 
 namespace lockstep {
@@ -12,5 +13,11 @@ struct GcodeError {
     bool repeats = false;  // later lines have the same error; it is reported once
     bool operator==(const GcodeError&) const = default;
 };
+
+namespace gcode {
+
+using Result = std::expected<void, GcodeError>;
+
+}  // namespace gcode
 
 }  // namespace lockstep

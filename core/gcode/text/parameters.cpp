@@ -30,7 +30,7 @@ void Parameters::set(std::string_view name, double value) {
     (is_global(name) ? values_.global : local_).insert_or_assign(std::string(name), value);
 }
 
-void Parameters::enter(const std::array<double, kArguments>& arguments) {
+void Parameters::enter(const Arguments& arguments) {
     Caller caller{.arguments = {}, .local = std::exchange(local_, {})};
     std::copy_n(values_.numbered.begin() + 1, kArguments, caller.arguments.begin());
     std::ranges::copy(arguments, values_.numbered.begin() + 1);

@@ -16,6 +16,7 @@ namespace lockstep::gcode {
 
 inline constexpr int kMaxParameter = 5601;
 inline constexpr std::size_t kArguments = 30;
+using Arguments = std::array<double, kArguments>;
 
 using NamedValues = std::map<std::string, double, std::less<>>;
 
@@ -49,13 +50,13 @@ public:
     const NamedValues& local() const { return local_; }
 
     /// Begins a call: the subroutine has its own #1 to #30, and no local names.
-    void enter(const std::array<double, kArguments>& arguments);
+    void enter(const Arguments& arguments);
     /// Ends a call: restores the caller's.
     void leave();
 
 private:
     struct Caller {
-        std::array<double, kArguments> arguments;
+        Arguments arguments;
         NamedValues local;
     };
 

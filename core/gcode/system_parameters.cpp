@@ -1,5 +1,5 @@
-// Interpreter: the parameters that programs can read but not write.
-#include "core/gcode/interpreter.hpp"
+#include "core/gcode/system_parameters.hpp"
+
 #include "core/gcode/run/compensation.hpp"
 
 namespace lockstep::gcode {
@@ -72,13 +72,12 @@ constexpr std::array kModes{
     NamedValue{"_task", [](const State&) { return 0.0; }},
 };
 
-}  // namespace
-
-std::optional<double> Interpreter::numbered_tool(int number) const {
-    const auto found = state_.tools.find(state_.tool);
-    const Tool tool = found == state_.tools.end() ? Tool{} : found->second;
+/// #5400 to #5413: the tool in the spindle.
+double numbered_tool(const State& state, int number) {
+    const auto found = state.tools.find(state.tool);
+    const Tool tool = found == state.tools.end() ? Tool{} : found->second;
     switch (number) {
-        case 5400: return state_.tool;
+        case 5400: return state.tool;
         case 5410: return tool.diameter;
         case 5411: return tool.front_angle;
         case 5412: return tool.back_angle;
@@ -87,25 +86,27 @@ std::optional<double> Interpreter::numbered_tool(int number) const {
     }
 }
 
+}  // namespace
+
 /// #5400 to #5413: the tool in the spindle; #5420 to #5428: where the axes stand, in the program's coordinates.
-std::optional<double> Interpreter::numbered(int number) const {
-    if (number >= 5400 && number <= 5413) { return numbered_tool(number); }
+std::optional<double> SystemParameters::numbered(int number) const {
+    if (number >= 5400 && number <= 5413) { return numbered_tool(state_, number); }
     if (number < 5420 || number > 5428) { return std::nullopt; }
     const auto axis = static_cast<std::size_t>(number - 5420);
     return in_units(state_, axis, shown_place(state_)[axis]);
 }
 
-std::optional<double> Interpreter::named(std::string_view name) const {
+std::optional<double> SystemParameters::named(std::string_view name) const {
     if (const auto axis = axis_of(name)) { return in_units(state_, *axis, shown_place(state_)[*axis]); }
     if (!name.starts_with('_')) { return std::nullopt; }
     if (name.starts_with("_abs_")) {
         const auto axis = axis_of(name.substr(4));
         return axis ? std::optional(in_units(state_, *axis, state_.machine[*axis])) : std::nullopt;
     }
-    if (name == "_value") { return returned_; }
-    if (name == "_value_returned") { return flag(has_returned_); }
+    if (name == "_value") { return stack_.returned().value_or(0); }
+    if (name == "_value_returned") { return flag(stack_.returned().has_value()); }
     if (name == "_line") { return line_.number(); }
-    if (name == "_call_level") { return calls_; }
+    if (name == "_call_level") { return static_cast<double>(stack_.calls()); }
     for (const NamedValue& mode : kModes) {
         if (mode.name == name) { return mode.value(state_); }
     }
