@@ -16,7 +16,37 @@ constexpr std::int64_t kFrame_ns = 5'000'000;
 // A jog has short frames, so that it ends with its renewals, and a short lead, so that it begins soon.
 constexpr std::int64_t kJogFrame_ns = 2'000'000;
 constexpr std::int64_t kJogLead_ns = 8'000'000;
+constexpr int kMaxTries = 10;
 constexpr std::int64_t kToWholeStep_ns = 10'000'000;  // how much longer than braking a halt may take
+
+/// Why the axis cannot jog.
+FaultCode jog_refusal_of(const AxisCommand& order, bool is_resting, const MotorConfig& motor, const AxisLimits& limits,
+                         const AxisLoop& loop) {
+    if (!is_resting || loop.device.status().moving) { return FaultCode::Busy; }
+    if (loop.condition.phases.has_fault()) { return FaultCode::InFault; }
+    if (!loop.device.is_present()) { return FaultCode::DeviceMissing; }
+    if (order.speed_mm_s < kLeastSpeed_mm_s) { return FaultCode::BadProgram; }
+    if (!loop.condition.position.homed()) { return motor.unhomed_jog_mm_s ? FaultCode::None : FaultCode::NotHomed; }
+    const bool is_within = order.target_steps >= limits.min_steps && order.target_steps <= limits.max_steps;
+    return is_within ? FaultCode::None : FaultCode::OutsideTravel;
+}
+
+/// A halt ends homing. The axis stays homed only if its zero was already set and it stands within its travel, because
+/// no frame may start from outside.
+void lose_zero_outside_travel(const AxisLimits& limits, AxisLoop& loop) {
+    AxisPosition& position = loop.condition.position;
+    const std::int64_t here = position.in_machine(loop.device.status().position).count();
+    if (here < limits.min_steps || here > limits.max_steps) {
+        position.lose();
+        loop.condition.phases.happen(AxisEvent::HomingBegins);  // to be homed again
+    }
+}
+
+void end_order(AxisLoop& loop) {
+    if (!loop.device.status().stopped_by_limit) { return loop.condition.orders.end(FaultCode::None); }
+    loop.condition.position.lose();
+    loop.fail(FaultCode::LimitHit);
+}
 
 }  // namespace
 
@@ -72,7 +102,7 @@ FaultCode OwnMoves::refusal_of(const AxisCommand& order, std::int64_t steps, boo
 }
 
 void OwnMoves::jog(const AxisCommand& order, bool is_resting, AxisLoop& loop) {
-    const FaultCode why = jog_refusal_of(order, is_resting, loop);
+    const FaultCode why = jog_refusal_of(order, is_resting, motor_, limits_, loop);
     if (why != FaultCode::None) { return loop.refuse(order, why); }
     const Position here = loop.condition.position.in_machine(loop.device.status().position);
     const std::int64_t steps = order.target_steps - here.count();
@@ -80,16 +110,6 @@ void OwnMoves::jog(const AxisCommand& order, bool is_resting, AxisLoop& loop) {
     const double fastest =
         loop.condition.position.homed() ? motor_.max_velocity_mm_s : motor_.unhomed_jog_mm_s.value_or(0);
     start_jog({.steps = steps, .speed_mm_s = std::min(order.speed_mm_s, fastest)}, order.until, loop);
-}
-
-FaultCode OwnMoves::jog_refusal_of(const AxisCommand& order, bool is_resting, const AxisLoop& loop) const {
-    if (!is_resting || loop.device.status().moving) { return FaultCode::Busy; }
-    if (loop.condition.phases.has_fault()) { return FaultCode::InFault; }
-    if (!loop.device.is_present()) { return FaultCode::DeviceMissing; }
-    if (order.speed_mm_s < kLeastSpeed_mm_s) { return FaultCode::BadProgram; }
-    if (!loop.condition.position.homed()) { return motor_.unhomed_jog_mm_s ? FaultCode::None : FaultCode::NotHomed; }
-    const bool is_within = order.target_steps >= limits_.min_steps && order.target_steps <= limits_.max_steps;
-    return is_within ? FaultCode::None : FaultCode::OutsideTravel;
 }
 
 /// Ends a jog here if its order runs out before the motion could begin. The owner orders it again while its client
@@ -156,17 +176,6 @@ void OwnMoves::halt(AxisLoop& loop) {
     run_->halt(loop);
 }
 
-/// A halt ends homing. The axis stays homed only if its zero was already set and it stands within its travel, because
-/// no frame may start from outside.
-void OwnMoves::lose_zero_outside_travel(AxisLoop& loop) const {
-    AxisPosition& position = loop.condition.position;
-    const std::int64_t here = position.in_machine(loop.device.status().position).count();
-    if (here < limits_.min_steps || here > limits_.max_steps) {
-        position.lose();
-        loop.condition.phases.happen(AxisEvent::HomingBegins);  // to be homed again
-    }
-}
-
 void OwnMoves::end(AxisLoop& loop) {
     const OwnRun ended = *std::exchange(run_, std::nullopt);
     const DeviceStatus& device = loop.device.status();
@@ -180,10 +189,13 @@ void OwnMoves::end(AxisLoop& loop) {
         return loop.fail(FaultCode::FrameBeyondLimits);
     }
     const auto rest = ended.is_jog() ? std::nullopt : ended.rest(device);
-    if (rest) { return go_on(*rest, ended.tries_of_rest(device), loop); }
+    if (rest) {
+        const int tries = ended.tries_of_rest(device);
+        return tries > kMaxTries ? loop.fail(FaultCode::DeviceFault) : start(*rest, tries, loop);
+    }
     const bool is_homing = homing_stage() != HomingStage::Idle;
     if (parks || !is_homing) { phases.happen(AxisEvent::MotionEnds); }
-    if (parks && ended.is_halted()) { lose_zero_outside_travel(loop); }
+    if (parks && ended.is_halted()) { lose_zero_outside_travel(limits_, loop); }
     if (!is_homing) { return end_order(loop); }
     take_homing_step(homing_.next({.by_trigger = device.stopped_by_trigger,
                                    .by_limit = device.stopped_by_limit,
@@ -192,16 +204,6 @@ void OwnMoves::end(AxisLoop& loop) {
                                    .trigger_count = device.trigger_count,
                                    .encoder_ahead = device.encoder_count - device.position.count()}),
                      loop);
-}
-
-void OwnMoves::go_on(const LocalMove& rest, int tries, AxisLoop& loop) {
-    tries > kMaxTries ? loop.fail(FaultCode::DeviceFault) : start(rest, tries, loop);
-}
-
-void OwnMoves::end_order(AxisLoop& loop) {
-    if (!loop.device.status().stopped_by_limit) { return loop.condition.orders.end(FaultCode::None); }
-    loop.condition.position.lose();
-    loop.fail(FaultCode::LimitHit);
 }
 
 void OwnMoves::abandon() {

@@ -40,18 +40,12 @@ public:
 
 private:
     FaultCode refusal_of(const AxisCommand& order, std::int64_t steps, bool is_resting, const AxisLoop& loop) const;
-    FaultCode jog_refusal_of(const AxisCommand& order, bool is_resting, const AxisLoop& loop) const;
     OwnMove frames_of(const LocalMove& move, Position from, Tick start) const;
     Tick earliest_start(const AxisLoop& loop);
     void start(const LocalMove& move, int tries, AxisLoop& loop);
     void start_jog(const LocalMove& move, Tick until, AxisLoop& loop);
-    void go_on(const LocalMove& rest, int tries, AxisLoop& loop);
-    void lose_zero_outside_travel(AxisLoop& loop) const;
-    void end_order(AxisLoop& loop);
     void take_homing_step(const HomingStep& step, AxisLoop& loop);
     void take_zero(const HomingStep& step, AxisLoop& loop);
-
-    static constexpr int kMaxTries = 10;
 
     MotorConfig motor_;
     AxisLimits limits_;
