@@ -1,7 +1,6 @@
 #include "core/axis/device_time.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/axis/device/retime.hpp"
@@ -9,96 +8,25 @@
 #include "core/kinematics/motors.hpp"
 
 namespace lockstep {
+
 DeviceTime::DeviceTime(std::size_t axis, const MachineConfig& machine)
-    : tick_ns_(machine.tick_ns),
-      machine_(machine.tick_ns, machine.timing.time_source,
-               machine.timing.time_source == TimeSource::Ptp ? machine.clock_error_limit() : Ticks{}),
-      shown_(machine.tick_ns),
-      pace_(machine.frame_ticks(), limits_of(motors_of(machine)[axis], machine.tick_ns)) {}
-
-bool DeviceTime::look(Tick own, const std::optional<Device>& device, bool in_use) {
-    if (device) { clock_ = device->clock; }
-    if (device && device->reading && !certain(*device->reading)) { return false; }
-    own_ = own;
-    if (!machine_.known() || (clock_ == DeviceClock::Own && !shown_.known())) { return false; }
-    now_ = machine_.advance(own, in_use);
-    return true;
-}
-
-/// Takes a reading of the device. Returns false if it leaves a doubt.
-bool DeviceTime::certain(const ClockExchange& reading) {
-    const bool stands_still = std::exchange(device_, reading.received) == reading.received;
-    if (clock_ == DeviceClock::Host) { return true; }
-    if (stands_still && shown_.known()) {
-        stood_still_ = true;
-        return true;
-    }
-    if (std::exchange(changed_, false)) { shown_ = ClockEstimator(tick_ns_); }
-    const bool is_first = !shown_.known();
-    const Ticks within{(reading.arrived - reading.sent).value / 2};
-    const Tick own = reading.sent + within;
-    const auto finding = shown_.offer(reading);
-    if (finding == ClockEstimator::Finding::Doubtful) { return false; }
-    const bool was_set = finding == ClockEstimator::Finding::ClockSet;
-    if (was_set) { own_was_set(own, reading.received, within); }
-    stood_still_ = false;
-    const double aged = std::abs(static_cast<double>((reading.received - agreed_.shown).value)) * shown_.rate_error();
-    const bool tells_more = static_cast<double>((within - agreed_.within).value) <= aged;
-    if (is_first || was_set || tells_more) { agreed_ = {own, within, reading.received}; }
-    return true;
-}
-
-/// This process's clock was set by the time that it counted since the agreed reading beyond what the device's clock
-/// counted. If the device's clock stood still meanwhile, this says nothing about machine time, and the exchanges with
-/// the coordinator have to correct it.
-void DeviceTime::own_was_set(Tick own, Tick shown, Ticks within) {
-    const auto by_device = static_cast<double>((shown - agreed_.shown).value);
-    const Ticks passed{std::llround(by_device / (1 + shown_.rate()))};
-    const Ticks rounding{2 + std::llround(std::ceil(std::abs(by_device) * shown_.rate_error()))};
-    const Ticks error = rounding + within + agreed_.within;
-    const Ticks by = own - agreed_.own - passed;
-    if (!stood_still_) { machine_.own_was_set(by, error); }
-    shown_.own_was_set(by, error);
-}
-
-Ticks DeviceTime::error_at(Tick machine) const {
-    const Tick own = machine_.own_at(machine);
-    return machine_.error(own) + shown_at(own).error;
-}
+    : clocks_(machine), pace_(machine.frame_ticks(), limits_of(motors_of(machine)[axis], machine.tick_ns)) {}
 
 Ticks DeviceTime::error() const {
-    Ticks most = error_at(now_);
+    Ticks most = clocks_.error_at(clocks_.now());
     for (const Loaded& loaded : loaded_) {
-        if (loaded.end > device_) { most = std::max(most, loaded.error); }
+        if (loaded.end > clocks_.device()) { most = std::max(most, loaded.error); }
     }
     return most;
 }
 
-/// Converts relative to the last look, by the rate of the clocks.
-Tick DeviceTime::to_machine(Tick device) const {
-    const ClockView shown = shown_at(own_);
-    const auto since = static_cast<double>((device - shown.other).value);
-    return machine_.at(own_ + Ticks{std::llround(since / (1 + shown.rate))});
-}
-
-ClockView DeviceTime::device_clock() const {
-    if (is_one_clock()) { return {.own = device_, .other = device_, .error = machine_.error(device_)}; }
-    const ClockView shown = shown_at(own_);
-    const ClockView machine = machine_.estimate(own_);
-    return {.own = shown.other,
-            .other = machine.other,
-            .rate = (1 + machine.rate) / (1 + shown.rate) - 1,
-            .error = shown.error + machine.error,
-            .rate_error = shown.rate_error + machine.rate_error};
-}
-
 DeviceStatus DeviceTime::in_machine_time(DeviceStatus status) const {
-    status.now = to_machine(status.now);
+    status.now = clocks_.to_machine(status.now);
     return status;
 }
 
 DeviceOrder DeviceTime::in_device_time(DeviceOrder order) {
-    if (is_one_clock()) { return order; }
+    if (clocks_.is_one_clock()) { return order; }
     if (const auto* begin = std::get_if<device::BeginRun>(&order)) {
         own_run_ = begin->own;
         machine_end_.reset();
@@ -115,10 +43,10 @@ void DeviceTime::load(device::LoadFrame& frame) {
     const Tick machine_end = frame.start + total_ticks(frame.track.body);
     const Ticks tail = total_ticks(frame.track.tail);
     const bool joins = machine_end_ == frame.start;
-    if (!joins) { pace_.begin(to_device(frame.start), clocks()); }
+    if (!joins) { pace_.begin(clocks_.to_device(frame.start), clocks_.device_rate()); }
     const Ticks start_error = joins ? end_error_ : Ticks{};
-    end_error_ = error_at(machine_end);
-    Loaded loaded{.tail_error = error_at(machine_end + tail)};
+    end_error_ = clocks_.error_at(machine_end);
+    Loaded loaded{.tail_error = clocks_.error_at(machine_end + tail)};
     frame.start = pace_.end();
     if (own_run_) {
         pace_.keep(total_ticks(frame.track.body));
@@ -142,7 +70,7 @@ void DeviceTime::load(device::LoadOutputs& outputs) const {
 
 template <typename Pieces>
 FramePace::Part DeviceTime::part_of(const Pieces& pieces, Tick machine_end) const {
-    return {total_ticks(pieces), pieces.size(), to_device(machine_end), clocks()};
+    return {total_ticks(pieces), pieces.size(), clocks_.to_device(machine_end), clocks_.device_rate()};
 }
 
 /// The error in the middle of a body is the error of its ends plus the bow caused by its changing rate.
@@ -165,8 +93,8 @@ void DeviceTime::pace(device::LoadFrame& frame, Tick machine_end, Loaded& loaded
 
 ExecutedTrack DeviceTime::in_device_time(ExecutedTrack track) {
     track.commanded_start = track.start;
-    track.clock_error = machine_.error(own_);
-    if (is_one_clock()) { return track; }
+    track.clock_error = clocks_.machine_error();
+    if (clocks_.is_one_clock()) { return track; }
     while (!loaded_.empty() && loaded_.front().frame.number < track.frame) { loaded_.pop_front(); }
     check(!loaded_.empty() && loaded_.front().frame.number == track.frame,
           "a frame is remembered as the device was given it until it is recorded");

@@ -27,9 +27,9 @@ const AxisOutputs& AxisNode::step(Tick own, const AxisMail& mail, const OnStep& 
 
 const AxisOutputs& AxisNode::decide(Tick own, const AxisMail& mail, const OnStep& on_step) {
     if (!found_) { seek_device(own); }
-    for (const ClockExchange& exchange : mail.clock) { time_.take(exchange); }
+    for (const ClockExchange& exchange : mail.clock) { time_.clocks().take(exchange); }
     look(own);
-    knows_time_ = time_.look(own, device_clock(), !controller_.at_rest());
+    knows_time_ = time_.clocks().look(own, device_clock(), !controller_.at_rest());
     out_.clear();
     drain_channels(own);
     if (knows_time_ && !is_looking()) { control(mail); }
@@ -59,7 +59,7 @@ std::expected<void, std::string> AxisNode::find_device(Tick own) {
 void AxisNode::lose_device(Tick own, const std::string& why) {
     (void)found_->port->apply(device::Veto{1});
     troubles_ += has_device() ? 1 : 0;
-    if (has_device()) { time_.change_device(); }
+    if (has_device()) { time_.clocks().change_device(); }
     found_.reset();
     edges_.clear();
     status_.moving = false;
@@ -95,11 +95,11 @@ void AxisNode::drain_channels(Tick own) {
 void AxisNode::control(const AxisMail& mail) {
     has_begun_ = true;
     const DeviceStatus status = time_.in_machine_time(status_);
-    const AxisInputs in{.now = time_.now(),
+    const AxisInputs in{.now = time_.clocks().now(),
                         .device = status,
                         .has_device = has_device(),
                         .device_failed = std::exchange(failed_, false),
-                        .edges = edges_.take(status_.now, time_.device_clock()),
+                        .edges = edges_.take(status_.now, time_.clocks().device_clock()),
                         .frames = mail.frames,
                         .peers = mail.peers,
                         .coordinator = mail.coordinator,
@@ -109,12 +109,12 @@ void AxisNode::control(const AxisMail& mail) {
     out_ = controller_.step(in);
     if (flight_ != nullptr) { flight_->take(in, out_); }
     if (meter_ != nullptr) {
-        meter_->look(time_.now(), has_device() ? &status : nullptr);
+        meter_->look(time_.clocks().now(), has_device() ? &status : nullptr);
         meter_->take(out_);
     }
     for (ExecutedTrack& track : out_.tracks) { track = time_.in_device_time(std::move(track)); }
     for (DeviceOrder& order : out_.orders) { order = time_.in_device_time(std::move(order)); }
-    out_.device_clock = time_.device_clock();
+    out_.device_clock = time_.clocks().device_clock();
 }
 
 void AxisNode::look(Tick own) {
@@ -130,12 +130,12 @@ void AxisNode::look(Tick own) {
     found_->first = found_->first.value_or(status_.now);
     if (found_->lives || status_.now == *found_->first) { return; }
     found_->lives = true;
-    time_.change_device();
+    time_.clocks().change_device();
 }
 
-std::optional<DeviceTime::Device> AxisNode::device_clock() const {
+std::optional<DeviceClocks::Device> AxisNode::device_clock() const {
     if (!has_device()) { return std::nullopt; }
-    DeviceTime::Device device{found_->port->clock(), {}};
+    DeviceClocks::Device device{found_->port->clock(), {}};
     if (found_->is_new) { device.reading = exchange_of(*found_->newest); }
     return device;
 }

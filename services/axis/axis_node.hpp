@@ -83,7 +83,7 @@ public:
     /// The error of the last order that the device refused; empty if it refused none.
     const std::string& trouble() const { return trouble_; }
     /// Machine time at the last step, if it is known.
-    Tick now() const { return time_.now(); }
+    Tick now() const { return time_.clocks().now(); }
     bool knows_time() const { return knows_time_; }
     const AxisController& controller() const { return controller_; }
 
@@ -92,7 +92,7 @@ private:
     std::expected<void, std::string> find_device(Tick own);
     void lose_device(Tick own, const std::string& why);
     void look(Tick own);
-    std::optional<DeviceTime::Device> device_clock() const;
+    std::optional<DeviceClocks::Device> device_clock() const;
     void control(const AxisMail& mail);
     void drain(Tick own, const OnStep& on_step, const ClockView& machine_time);
     void drain_channels(Tick own);

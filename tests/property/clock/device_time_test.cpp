@@ -21,7 +21,7 @@ Tick device_shows(Tick own) {
 }
 
 /// The clock of a device whose registers take no time to read.
-DeviceTime::Device shown_at_once(Tick own, Tick shown) {
+DeviceClocks::Device shown_at_once(Tick own, Tick shown) {
     return {DeviceClock::Own, ClockExchange{own, shown, shown, own}};
 }
 
@@ -47,13 +47,13 @@ public:
     void begin() {
         for (int i = 0; i < 20; ++i) { look(false); }
         (void)time_->in_device_time(device::BeginRun{});
-        start_ = time_->now() + Ticks{300'000};
+        start_ = time_->clocks().now() + Ticks{300'000};
     }
 
     /// Loads a frame of any length and returns the device's track.
     ExecutedTrack load() {
         look(true);
-        while (time_->now() < start_ - Ticks{300'000}) { look(true); }
+        while (time_->clocks().now() < start_ - Ticks{300'000}) { look(true); }
         const Ticks ticks{std::llround(std::exp(clocks_.real(std::log(50.0), std::log(200'000.0))))};
         device::LoadFrame frame{.number = ++number_, .start = start_};
         (void)frame.track.body.push_back({ticks, {1 << 20}, {}});
@@ -83,9 +83,9 @@ public:
 
 private:
     void look(bool in_use) {
-        time_->take(clocks_.exchange());
+        time_->clocks().take(clocks_.exchange());
         const Tick own = clocks_.own(clocks_.truth());
-        (void)time_->look(own, shown_at_once(own, device_shows(own)), in_use);
+        (void)time_->clocks().look(own, shown_at_once(own, device_shows(own)), in_use);
     }
 
     MachineConfig machine_;
@@ -111,17 +111,17 @@ TEST(DeviceTime, IsRightAgainAfterTheClockWasSetBackWhileTheDeviceStoodStill) {
         now += kLoop;
         if (!stands_still) { shown += kLoop; }
         const Tick own = now + own_ahead;
-        if (++loops % 5 == 0) { time.take({own - Ticks{200}, now - Ticks{100}, now - Ticks{100}, own}); }
-        return time.look(own, shown_at_once(own, shown), true);
+        if (++loops % 5 == 0) { time.clocks().take({own - Ticks{200}, now - Ticks{100}, now - Ticks{100}, own}); }
+        return time.clocks().look(own, shown_at_once(own, shown), true);
     };
     for (int i = 0; i < 2000; ++i) { look(false); }
-    ASSERT_LE(std::abs((time.now() - now).value), time.error().value);
+    ASSERT_LE(std::abs((time.clocks().now() - now).value), time.error().value);
     EXPECT_LE(std::abs((time.in_machine_time({.now = shown}).now - now).value), time.error().value);
     own_ahead = own_ahead - Ticks{7'251'060};
     EXPECT_FALSE(look(false));
     for (int i = 0; i < 28; ++i) { EXPECT_TRUE(look(true)) << "its axis is not silent"; }
     for (int i = 0; i < 2000; ++i) { look(false); }
-    EXPECT_LE(std::abs((time.now() - now).value), time.error().value);
+    EXPECT_LE(std::abs((time.clocks().now() - now).value), time.error().value);
     EXPECT_LE(time.error(), Ticks{1'000});
 }
 
@@ -156,10 +156,10 @@ TEST(DeviceTime, OfClocksThatGoAlikeTheRateIsNoneAndTheyPassTheSameTime) {
     machine.axes = {screw()};
     DeviceTime time(0, machine);
     for (Tick now{500}; now < Tick{1'000'000}; now += Ticks{500}) {
-        time.take({now - Ticks{200}, now - Ticks{100}, now - Ticks{100}, now});
-        (void)time.look(now, shown_at_once(now, now + kAhead), true);
+        time.clocks().take({now - Ticks{200}, now - Ticks{100}, now - Ticks{100}, now});
+        (void)time.clocks().look(now, shown_at_once(now, now + kAhead), true);
     }
-    EXPECT_NEAR(time.device_clock().rate, 0, 2 * ClockEstimator::kMaxRate);
+    EXPECT_NEAR(time.clocks().device_clock().rate, 0, 2 * ClockEstimator::kMaxRate);
     const auto machine_at = [&](Ticks after) {
         return time.in_machine_time({.now = Tick{1'000'000} + kAhead + after}).now;
     };
@@ -198,16 +198,16 @@ public:
         const Tick asked = own();
         now_ += Ticks{draw(50, 2500)};
         const Tick shown = device_at(now_);
-        if (draw(0, 1) == 1) { (void)time_->look(own(), no_answer(), true); }
+        if (draw(0, 1) == 1) { (void)time_->clocks().look(own(), no_answer(), true); }
         now_ += Ticks{draw(50, 2500)};
-        return time_->look(own(), DeviceTime::Device{DeviceClock::Own, ClockExchange{asked, shown, shown, own()}},
-                           in_use);
+        return time_->clocks().look(
+            own(), DeviceClocks::Device{DeviceClock::Own, ClockExchange{asked, shown, shown, own()}}, in_use);
     }
     bool pass(Ticks time) {
         now_ += time;
-        return time_->look(own(), no_answer(), true);
+        return time_->clocks().look(own(), no_answer(), true);
     }
-    void ask_coordinator() { time_->take({own() - Ticks{200}, now_ - Ticks{100}, now_ - Ticks{100}, own()}); }
+    void ask_coordinator() { time_->clocks().take({own() - Ticks{200}, now_ - Ticks{100}, now_ - Ticks{100}, own()}); }
     void set_own(Ticks forward) { ahead_ += forward; }
 
     const DeviceTime& time() const { return *time_; }
@@ -216,7 +216,7 @@ public:
     Ticks off() const { return length_of(time_->in_machine_time({.now = device_at(now_)}).now - now_); }
 
 private:
-    static DeviceTime::Device no_answer() { return {DeviceClock::Own, std::nullopt}; }
+    static DeviceClocks::Device no_answer() { return {DeviceClock::Own, std::nullopt}; }
     static Tick device_at(Tick truth) { return device_shows(truth); }
     Tick own() const { return now_ + ahead_; }
     std::int64_t draw(std::int64_t least, std::int64_t most) {
@@ -235,7 +235,7 @@ TEST(DeviceTime, ADeviceThatAnswersLateIsWithinTheReportedError) {
         LateAnswers late(seed);
         for (int i = 0; i < 3000; ++i) {
             ASSERT_TRUE(late.exchange());
-            ASSERT_EQ(late.time().now(), late.now()) << "machine time is the host's clock";
+            ASSERT_EQ(late.time().clocks().now(), late.now()) << "machine time is the host's clock";
             ASSERT_LE(late.off(), late.time().error()) << "seed " << seed << ", answer " << i;
         }
         EXPECT_GE(late.time().error(), Ticks{50}) << "half the shortest way there and back";
@@ -271,10 +271,10 @@ TEST(DeviceTime, LateAnswersShowByHowMuchThisProcessesClockWasSet) {
         int doubts = 0;
         while (!late.exchange()) { ++doubts; }
         EXPECT_EQ(doubts, 1);
-        EXPECT_LE(length_of(late.time().now() - late.now()), late.time().error()) << by.value;
+        EXPECT_LE(length_of(late.time().clocks().now() - late.now()), late.time().error()) << by.value;
         for (int i = 0; i < 100; ++i) {
             (void)late.exchange(false);
-            EXPECT_LE(length_of(late.time().now() - late.now()), late.time().error()) << by.value;
+            EXPECT_LE(length_of(late.time().clocks().now() - late.now()), late.time().error()) << by.value;
         }
     }
 }
