@@ -34,8 +34,8 @@ void MachineRecorder::on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs&
         for (const ChannelEvent& event : std::exchange(noted_[axis], {})) { recorder->channel(event); }
     }
     if (!recorder) { return; }
-    recorder->lost_channel_events(node.lost_channel_events());
-    recorder->loop(out, node.controller().zero_count(), node.lost_captures());
+    recorder->lost_channel_events(node.device().lost_channel_events());
+    recorder->loop(out, node.controller().zero_count(), node.device().lost_captures());
     if (!jobs_ || !out.state) { return; }
     jobs_->note_axis({.identity = out.state->identity,
                       .axis = static_cast<std::uint32_t>(axis),

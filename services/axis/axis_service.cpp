@@ -111,8 +111,8 @@ public:
         looped_ = node_.now();
         if (out.state) { network_.publish(*out.state); }
         for (const MachineState& state : in.machine) { recorder_.note_coordinator(state); }
-        recorder_.lost_channel_events(node_.lost_channel_events());
-        recorder_.loop(out, node_.controller().zero_count(), node_.lost_captures());
+        recorder_.lost_channel_events(node_.device().lost_channel_events());
+        recorder_.loop(out, node_.controller().zero_count(), node_.device().lost_captures());
         if (out.rests) { keeper_.keep(*out.rests); }
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }
         report_device();
@@ -168,8 +168,8 @@ private:
 
     void say_health(std::uint64_t skipped_loops) {
         auto health = meter_.report(node_.clock_error(), {.messages = network_.refused(),
-                                                          .orders = node_.troubles(),
-                                                          .captures = node_.lost_captures(),
+                                                          .orders = node_.device().troubles(),
+                                                          .captures = node_.device().lost_captures(),
                                                           .records = sink_->failures(),
                                                           .skipped_loops = skipped_loops});
         if (!health) { return; }
@@ -208,8 +208,8 @@ private:
         }
         if (!has_device_) { report_missing_device(); }
         if (!node_.knows_time()) { log_info("waits for the coordinator's clock"); }
-        if (node_.trouble() != trouble_) {
-            trouble_ = node_.trouble();
+        if (node_.device().trouble() != trouble_) {
+            trouble_ = node_.device().trouble();
             log_event(spdlog::level::err, FaultCode::DeviceFault, trouble_);
         }
     }

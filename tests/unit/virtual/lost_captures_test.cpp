@@ -43,7 +43,7 @@ class LostCaptures : public Rig, public VirtualObserver {
 protected:
     LostCaptures() : Rig({.machine = fast_machine()}) { vm.observe(*this); }
     void on_axis(std::size_t axis, Tick, const AxisOutputs&, AxisNode& node) override {
-        if (axis == 0) { lost = static_cast<std::int64_t>(node.lost_captures()); }
+        if (axis == 0) { lost = static_cast<std::int64_t>(node.device().lost_captures()); }
     }
 
     Record record;

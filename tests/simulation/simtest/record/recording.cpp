@@ -114,7 +114,7 @@ void Recorder::take_notice(std::size_t axis, const AxisNotice& notice, const Axi
     if (refuses || (notice.kind == Kind::Fault && !explained)) {
         recording_.troubles.push_back(motor_name(recording_.machine, axis) + ": " +
                                       (refuses ? "frame refused: " : "fault ") + std::string(name_of(notice.fault)) +
-                                      " " + node.trouble());
+                                      " " + node.device().trouble());
     }
 }
 
