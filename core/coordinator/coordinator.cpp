@@ -5,6 +5,7 @@
 
 #include "core/coordinator/jobs/job_advance.hpp"
 #include "core/coordinator/jobs/job_commands.hpp"
+#include "core/coordinator/jobs/job_report.hpp"
 #include "core/coordinator/reply.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/protocol/needs_lease.hpp"

@@ -11,10 +11,10 @@ EpochReplay::EpochReplay(const MachineConfig& machine, Epoch epoch, EpochStart s
     : runner_(machine) {
     runner_.load(std::move(start.source));
     runner_.begin(epoch, start.place, start.at, overrides, {devices, start.place.block}, start.touch);
-    runner_.read_ahead();
+    runner_.source()->read_ahead();
     (void)runner_.send(slot_++, {});
-    shift_ = begin - runner_.start().value_or(begin);
-    all_made_ = !runner_.start();
+    shift_ = begin - runner_.made().start().value_or(begin);
+    all_made_ = !runner_.made().start();
 }
 
 bool EpochReplay::set_overrides(FrameNumber behind, const Overrides& overrides) {
@@ -26,8 +26,8 @@ bool EpochReplay::set_overrides(FrameNumber behind, const Overrides& overrides) 
 /// receives no replies.
 void EpochReplay::make_up_to(FrameNumber number) {
     while (made_ < number && !all_made_) {
-        if (const auto change = changes_.extract(made_)) { runner_.set_overrides(change.mapped()); }
-        runner_.read_ahead();
+        if (const auto change = changes_.extract(made_)) { runner_.overrides().set(change.mapped()); }
+        runner_.source()->read_ahead();
         for (const Frame& frame : runner_.send(slot_++, {})) {
             made_ = frame.number;
             all_made_ = frame.last;

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/coordinator/path/epoch_runner.hpp"
+#include "core/coordinator/epoch/epoch_runner.hpp"
 
 namespace lockstep::verification {
 
@@ -51,7 +51,7 @@ public:
     EpochEnd evaluate(std::span<const AxisEnd> axes) const;
 
     /// The block of the program in motion at a tick.
-    std::uint32_t block_at(Tick tick) const { return runner_.place_at(tick - shift_).block; }
+    std::uint32_t block_at(Tick tick) const { return runner_.made().place_at(tick - shift_).block; }
 
 private:
     void make_up_to(FrameNumber number);

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "clients/verification/findings.hpp"
-#include "core/coordinator/path/epoch_runner.hpp"
+#include "core/coordinator/epoch/epoch_runner.hpp"
 #include "core/outputs/output_config.hpp"
 #include "core/program_devices.hpp"
 #include "services/record/reading/recorded_program.hpp"

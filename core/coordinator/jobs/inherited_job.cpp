@@ -11,7 +11,7 @@ void Inheritance::take_over(const std::optional<MachineState>& last, JobLifecycl
     activity::Waiting waiting;
     if (last && last->job >= jobs.count().number()) {
         jobs.count().inherit(*last);
-        jobs.path().inherit(last->overrides);
+        jobs.path().set_overrides(last->overrides);
         jobs.path().events().inherit(last->devices);
         if (last->job != 0 && !last->outcome) { waiting.inherited = last; }
     }

@@ -1,5 +1,7 @@
 #include "core/coordinator/jobs/job_advance.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/coordinator/jobs/homing_job.hpp"
@@ -17,10 +19,13 @@ void settle_interrupted(activity::OnPath& path, const EpochEnd& end, JobLifecycl
         activity::Holding holding{std::move(task), end.place, end.positions};
         return jobs.activity().become(MachineEvent::RestsOnPath, std::move(holding), loop.out);
     }
-    const bool lacks_blocks = jobs.path().waits_for_blocks();
+    EpochRunner& runner = jobs.path().runner();
+    const bool lacks_blocks = runner.ending() == EpochRunner::Ending::LacksProgram || runner.source()->lacks_blocks();
     loop.notice({lacks_blocks ? CoordinatorNotice::Kind::ProgramLate : CoordinatorNotice::Kind::Interrupted,
                  lacks_blocks ? FaultCode::None : FaultCode::FrameLate, end.ran});
-    if (jobs.path().is_stuck()) { return jobs.fail_at_rest({FaultCode::FrameBeyondLimits}, loop); }
+    if (runner.ending() == EpochRunner::Ending::Stuck) {
+        return jobs.fail_at_rest({FaultCode::FrameBeyondLimits}, loop);
+    }
     if (path.jog) { return jobs.end(JobOutcome::Stopped, loop); }  // it begins again while its key is held
     if (!lacks_blocks && !task.may_try_again(end)) { return jobs.fail_at_rest({FaultCode::FrameLate}, loop); }
     jobs.path().begin_epoch(task, end.place, end.positions, loop);
@@ -94,7 +99,7 @@ void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& l
         if (next && is_free) { (void)commands::begin_path_jog(*next, renewed, jobs, loop); }
         return;
     }
-    if (!jobs.path().is_overdue()) { return; }
+    if (!jobs.path().runner().is_overdue()) { return; }
     const auto homing = path.homing;
     // The fault names an axis that does not come to rest.
     jobs.fail({FaultCode::NotAtRest, loop.axes.moving(loop.slot).value_or(0)}, loop);
@@ -123,25 +128,9 @@ bool are_orders_done(const CoordinatorLoop& loop) {
     return true;
 }
 
-/// Reuses the memory of the last state's pause.
-void report_pause(const activity::Paused* pause, MachineState& state, const LoopView& loop) {
-    if (pause == nullptr) { return state.pause.reset(); }
-    if (!state.pause) { state.pause.emplace(); }
-    state.pause->why = pause->why;
-    state.pause->place = pause->task.from;
-    const Ticks left = pause->watch ? pause->watch->left(loop.now) : Ticks{};
-    state.pause->wait_left_s = static_cast<double>(left.value) / loop.machine.ticks_per_second();
-}
-
-void report_on_path(const activity::OnPath& moving, const PathRunner& path, MachineState& state, const LoopView& loop) {
-    path.report_moving(moving.task, state);
-    if (moving.pause) {
-        state.remaining_s += path.seconds_after_pause(moving.pause->task);
-        state.progress = moving.pause->task.progress.share();
-    } else if (moving.intent == Intent::GoOn && !moving.jog && !moving.homing &&
-               !moving.task.probe) {  // others cannot continue these
-        path.report_rests(moving.task, state, loop.axes);
-    }
+Subticks into_path(const MadeFrames& made, Tick now) {
+    if (!made.start()) { return {}; }
+    return subticks(std::clamp(now - *made.start(), Ticks{}, made.ticks_of(made.newest())));
 }
 
 }  // namespace
@@ -173,44 +162,12 @@ void advance_jogs(JobLifecycle& jobs, CoordinatorLoop& loop) {
 
 void note_progress(JobLifecycle& jobs, const LoopView& loop) {
     auto* const path = jobs.activity().as<activity::OnPath>();
-    if (path != nullptr) { jobs.path().note_progress(path->task, loop); }
-}
-
-std::optional<HomedByTouch> homed_by_touch(const MachineActivity& activity) {
-    const auto* homing = activity.as<activity::Homing>();
-    const auto* const moving = activity.as<activity::OnPath>();
-    if (moving != nullptr && moving->homing) { homing = &*moving->homing; }
-    if (homing == nullptr || !homing->touch) { return std::nullopt; }
-    return HomedByTouch{static_cast<std::uint32_t>(homing->touch->axis()), homing->touch->stage()};
-}
-
-void report_job(const JobLifecycle& jobs, MachineState& state, const LoopView& loop) {
-    const MachineActivity& activity = jobs.activity();
-    const JobCount& count = jobs.count();
-    state.job = count.number();
-    state.outcome = jobs.has_job() ? std::nullopt : count.outcome();
-    state.job_begun = count.begun_in();
-    state.line = count.line();
-    state.job_fault = count.fault();
-    jobs.path().report_epoch(state);
-    const auto* const paused = activity.as<activity::Paused>();
-    report_pause(paused != nullptr ? paused : activity.pause(), state, loop);
-    if (const MachineState* const inherited = activity.inherited()) {
-        state.line = inherited->line;
-        state.progress = inherited->progress;
-    }
-    if (const auto* const moves = activity.as<activity::OwnMoves>()) {
-        state.progress = moves->targets.progress(loop.axes);
-        state.remaining_s = moves->targets.remaining_s(loop.now, loop.machine);
-    }
-    if (const auto* const held = activity.as<activity::Holding>()) {
-        jobs.path().report_held(held->task, held->place, state);
-    }
-    if (paused != nullptr) { jobs.path().report_paused(paused->task, state); }
-    if (const auto* const moving = activity.as<activity::OnPath>()) {
-        report_on_path(*moving, jobs.path(), state, loop);
-    }
-    state.homing = homed_by_touch(activity);
+    if (path == nullptr) { return; }
+    const MadeFrames& made = jobs.path().runner().made();
+    const PathPlace here = made.place_at(loop.now);
+    const double ticks = jobs.path().seconds_left(here) * loop.machine.ticks_per_second();
+    path->task.progress.note(into_path(made, loop.now), subticks(Ticks{std::llround(ticks)}));
+    path->task.job.program->release_before(here.block);
 }
 
 }  // namespace lockstep

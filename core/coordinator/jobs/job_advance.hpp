@@ -11,6 +11,5 @@ void advance_jogs(JobLifecycle& jobs, CoordinatorLoop& loop);
 void advance_job(JobLifecycle& jobs, CoordinatorLoop& loop);
 /// Call it in each slot, after all else.
 void note_progress(JobLifecycle& jobs, const LoopView& loop);
-void report_job(const JobLifecycle& jobs, MachineState& state, const LoopView& loop);
 
 }  // namespace lockstep

@@ -31,7 +31,7 @@ inline JobEvent probed(const PathTask& task, const PathRunner& path) {
     return {.kind = JobEvent::Kind::Probed,
             .job = task.job.number,
             .job_kind = task.job.kind,
-            .epoch = task.has_moved ? path.epoch() : 0,
+            .epoch = task.has_moved ? path.runner().epoch() : 0,
             .probe = path.probe()};
 }
 

@@ -122,7 +122,7 @@ void JobLifecycle::fail(const MachineFault& fault, CoordinatorLoop& loop) {
     if (activity_.has_fault()) { return; }
     if (!activity_.in_motion()) { return fail_at_rest(fault, loop); }
     loop.notice({CoordinatorNotice::Kind::Fault, fault.code, fault.axis});
-    activity_.is<activity::OnPath>() ? path_.stop(loop.next_state) : halt_axes(loop);
+    activity_.is<activity::OnPath>() ? path_.runner().stop(loop.next_state) : halt_axes(loop);
     activity_.abort(fault, loop.out);
 }
 
@@ -139,7 +139,7 @@ void JobLifecycle::fail_at_rest(const MachineFault& fault, CoordinatorLoop& loop
 }
 
 void JobLifecycle::brake_on_path(Intent intent, CoordinatorLoop& loop) {
-    path_.stop(loop.next_state);
+    path_.runner().stop(loop.next_state);
     activity_.bring_to_rest(intent, loop.out);
 }
 

@@ -20,19 +20,9 @@ std::optional<Pause> pass_leg(PathTask& task, const LegEnd& end) {
     return end.kind == LegEnd::Kind::Pause ? std::optional(end.pause) : std::nullopt;
 }
 
-}  // namespace
-
-/// Makes the frames of the next leg in the memory of the last leg, if its source can do that.
-void PathRunner::load_leg(const PathTask& task) {
-    const auto& program = task.job.program;
-    const OwnedSource& source = runner_.source();
-    const bool has_begun = source && source->begin(program, program->places(), task.next, task.from);
-    if (!has_begun) { runner_.load(planner_.frames(program, task.next, task.from)); }
-}
-
 /// Returns the end of the leg that begins with the next block if nothing moves in it. Returns nullopt if something
 /// moves, or if a bounded search does not find its end.
-std::optional<LegEnd> PathRunner::end_of_empty_leg(const PathTask& task) const {
+std::optional<LegEnd> end_of_empty_leg(const PathTask& task, const ProgramPlanner& planner) {
     const KnownProgram& program = *task.job.program;
     LegEnd end{.block = task.next, .to = task.from};
     for (; end.block < task.next + ProgramFrames::kBlocksAtOnce; ++end.block) {
@@ -41,10 +31,42 @@ std::optional<LegEnd> PathRunner::end_of_empty_leg(const PathTask& task) const {
         if (block == nullptr) { return std::nullopt; }
         note_end(*block, end);
         if (ends_leg(*block)) { return end; }
-        if (planner_.moves(*block, program.places(), end.to)) { return std::nullopt; }
+        if (planner.moves(*block, program.places(), end.to)) { return std::nullopt; }
     }
     return std::nullopt;
 }
+
+/// Returns an epoch greater than `newest` and any of this term that an axis has accepted from any sender.
+Epoch epoch_after(Epoch newest, const LoopView& loop) {
+    newest = std::max(newest, first_epoch(loop.term));
+    for (const AxisView& view : loop.axes.views()) {
+        if (view.state && is_epoch_of(view.state->epoch, loop.term)) { newest = std::max(newest, view.state->epoch); }
+    }
+    return newest + 1;
+}
+
+ProgramEvents::Of of(const PathTask& task, const EpochRunner& runner) {
+    return {task.job.number, task.has_moved ? runner.epoch() : 0};
+}
+
+/// The devices know how many pulses they made before they came to rest.
+void note_pulses(ProgramEvents& events, const LoopView& loop) {
+    for (const OutputConfig& output : loop.machine.outputs) {
+        if (!output.makes_pulses() || !is_active(output, events.devices())) { continue; }
+        const auto motor = motor_named(loop.machine, output.motor);
+        if (motor && loop.axes.state(*motor)) { events.note_pulses(loop.axes.state(*motor)->pulses_left); }
+    }
+}
+
+/// Makes the frames of the next leg in the memory of the last leg, if its source can do that.
+void load_leg(const PathTask& task, const ProgramPlanner& planner, EpochRunner& runner) {
+    const auto& program = task.job.program;
+    const OwnedSource& source = runner.source();
+    const bool has_begun = source && source->begin(program, program->places(), task.next, task.from);
+    if (!has_begun) { runner.load(planner.frames(program, task.next, task.from)); }
+}
+
+}  // namespace
 
 /// Publishes the events of a leg in which nothing moves, or those at the end of a leg that another coordinator has run.
 void PathRunner::pass_events(const PathTask& task, const LegEnd& end, const LoopView& loop,
@@ -53,7 +75,7 @@ void PathRunner::pass_events(const PathTask& task, const LegEnd& end, const Loop
         const Block* const block = task.job.program->block(k);
         if (block == nullptr) { break; }
         const auto* event = std::get_if<ProgramEvent>(&block->action);
-        if (event != nullptr) { events_.pass(PathEvent{k, block->line, *event}, of(task), loop, out); }
+        if (event != nullptr) { events_.pass(PathEvent{k, block->line, *event}, of(task, runner_), loop, out); }
     }
 }
 
@@ -61,12 +83,12 @@ std::optional<Probed> PathRunner::end_probe_at_begin(const PathTask& task, const
     if (!task.probe) { return std::nullopt; }
     const auto input = planner_.touch_input(*task.probe);
     check(input.has_value(), "the input of a probe is checked when its program arrives");
-    return probing_.end_at_begin(task, *input, !end_of_empty_leg(task), loop);
+    return probing_.end_at_begin(task, *input, !end_of_empty_leg(task, planner_), loop);
 }
 
 PathNext PathRunner::begin_leg(PathTask& task, const LoopView& loop, std::vector<PublishedEvent>& out) {
     while (!task.job.program->ends_before(task.next)) {
-        const auto empty = end_of_empty_leg(task);
+        const auto empty = end_of_empty_leg(task, planner_);
         if (!empty) { break; }
         pass_events(task, *empty, loop, out);
         if (task.probe) { break; }
@@ -74,7 +96,7 @@ PathNext PathRunner::begin_leg(PathTask& task, const LoopView& loop, std::vector
     }
     if (const auto end = end_probe_at_begin(task, loop)) { return *end; }
     if (task.job.program->ends_before(task.next)) { return ProgramDone{}; }
-    load_leg(task);
+    load_leg(task, planner_, runner_);
     begin_epoch(task, {task.next, {}}, {}, loop);
     return EpochBegun{};
 }
@@ -96,19 +118,10 @@ PathNext PathRunner::continue_rest(PathTask& task, const JobRest& rest, std::uin
         if (const auto pause = pass_leg(task, *rest.done)) { return *pause; }
         return begin_leg(task, loop, out);
     }
-    load_leg(task);
+    load_leg(task, planner_, runner_);
     runner_.source()->begin_events_from(events_from);
     begin_epoch(task, rest.place, rest.positions, loop);
     return EpochBegun{};
-}
-
-/// Returns an epoch greater than any of this term that an axis has accepted from any sender.
-Epoch PathRunner::next_epoch(const LoopView& loop) {
-    epoch_ = std::max(epoch_, first_epoch(loop.term));
-    for (const AxisView& view : loop.axes.views()) {
-        if (view.state && is_epoch_of(view.state->epoch, loop.term)) { epoch_ = std::max(epoch_, view.state->epoch); }
-    }
-    return ++epoch_;
 }
 
 void PathRunner::begin_epoch(PathTask& task, const PathPlace& place, MotorPositions at, const LoopView& loop) {
@@ -121,43 +134,34 @@ void PathRunner::begin_epoch(PathTask& task, const PathPlace& place, MotorPositi
     const bool is_aside = kind == JobKind::Jog || kind == JobKind::Return || kind == JobKind::Home;
     if (is_aside) { switched.devices.pulses = {}; }
     const auto touch = task.probe ? planner_.touch_input(*task.probe) : std::nullopt;
-    runner_.begin(next_epoch(loop), place, at, overrides_, switched, touch);
-}
-
-/// The devices know how many pulses they made before they came to rest.
-void PathRunner::note_pulses(const LoopView& loop) {
-    for (const OutputConfig& output : loop.machine.outputs) {
-        if (!output.makes_pulses() || !is_active(output, events_.devices())) { continue; }
-        const auto motor = motor_named(loop.machine, output.motor);
-        if (motor && loop.axes.state(*motor)) { events_.note_pulses(loop.axes.state(*motor)->pulses_left); }
-    }
+    runner_.begin(epoch_after(runner_.epoch(), loop), place, at, overrides_, switched, touch);
 }
 
 void PathRunner::note_start(const PathTask& task, const LoopView& loop, CoordinatorOutputs& out) {
     const EpochRunner::Begin& begin = runner_.begun();
     for (const PathEvent& event : runner_.source()->events_before(begin.place.block)) {
-        events_.pass(event, of(task), loop, out.events);
+        events_.pass(event, of(task, runner_), loop, out.events);
     }
     out.notices.push_back({CoordinatorNotice::Kind::EpochBegun, FaultCode::None, runner_.epoch()});
     out.jobs.push_back({.kind = JobEvent::Kind::EpochBegun,
                         .job = task.job.number,
                         .job_kind = task.job.kind,
                         .epoch = runner_.epoch(),
-                        .start = *runner_.start(),
+                        .start = *runner_.made().start(),
                         .place = begin.place,
                         .overrides = begin.overrides});
 }
 
 /// Reports the epoch's start as soon as its first frame can be made.
 std::optional<EpochEnd> PathRunner::advance(const PathTask& task, const LoopView& loop, CoordinatorOutputs& out) {
-    const bool had_started = runner_.start().has_value();
+    const bool had_started = runner_.made().start().has_value();
     out.frames = runner_.send(loop.slot, loop.axes.views());
     for (Frame& frame : out.frames) { frame.term = loop.term; }
-    if (!had_started && runner_.start()) { note_start(task, loop, out); }
+    if (!had_started && runner_.made().start()) { note_start(task, loop, out); }
     for (const EpochRunner::Happened& event : runner_.take_events(loop.now, loop.axes.views())) {
-        events_.happen(event.event, event.tick, of(task), loop, out.events);
+        events_.happen(event.event, event.tick, of(task, runner_), loop, out.events);
     }
-    if (const auto change = runner_.take_override_change()) {
+    if (const auto change = runner_.overrides().take_change()) {
         out.jobs.push_back({.kind = JobEvent::Kind::Overridden,
                             .job = task.job.number,
                             .job_kind = task.job.kind,
@@ -176,73 +180,11 @@ void PathRunner::end_epoch(PathTask& task, const EpochEnd& end, const LoopView& 
     if (is_whole || end.kind == EpochEnd::Kind::Interrupted) {
         const std::uint32_t before = is_whole ? runner_.source()->end().block : end.place.block;
         for (const PathEvent& event : runner_.source()->events_before(before)) {
-            events_.pass(event, of(task), loop, out);
+            events_.pass(event, of(task, runner_), loop, out);
         }
-        if (end.has_pulses) { note_pulses(loop); }
+        if (end.has_pulses) { note_pulses(events_, loop); }
     }
-    task.progress.end_path(subticks(runner_.ticks_of(end.ran)));
-}
-
-Subticks PathRunner::into_path(Tick now) const {
-    if (!runner_.start()) { return {}; }
-    return subticks(std::clamp(now - *runner_.start(), Ticks{}, runner_.ticks_of(runner_.sent())));
-}
-
-/// Considers the feed override, but not that the axes' limits may allow less than the feed.
-double PathRunner::seconds_left(const PathPlace& place) const {
-    return runner_.source()->seconds_from(place) / overrides_.feed();
-}
-
-void PathRunner::note_progress(PathTask& task, const LoopView& loop) const {
-    const double ticks = seconds_left(runner_.place_at(loop.now)) * loop.machine.ticks_per_second();
-    task.progress.note(into_path(loop.now), subticks(Ticks{std::llround(ticks)}));
-    task.job.program->release_before(runner_.place_at(loop.now).block);
-}
-
-void PathRunner::report_epoch(MachineState& state) const {
-    state.epoch = runner_.epoch();
-    state.sent = runner_.sent();
-    state.veto = runner_.veto();
-    state.overrides = overrides_;
-    state.devices = events_.devices();
-    state.events_from = events_.from();
-    state.probe = probing_.result();
-}
-
-void PathRunner::report_moving(const PathTask& task, MachineState& state) const {
-    report_held(task, runner_.place_at(state.tick), state);
-    state.lacks_blocks = runner_.source()->lacks_blocks();
-}
-
-void PathRunner::report_held(const PathTask& task, const PathPlace& place, MachineState& state) const {
-    state.line = runner_.source()->line_of(place.block);
-    state.remaining_s = seconds_left(place);
-    state.progress = task.progress.share();
-}
-
-double PathRunner::seconds_after_pause(const PathTask& task) const {
-    return task.job.program->seconds_from({task.next, {}}) / overrides_.feed();
-}
-
-/// The program may have paused before anything moved, so that no leg is loaded.
-void PathRunner::report_paused(const PathTask& task, MachineState& state) const {
-    const Block* const pause = task.next > 0 ? task.job.program->block(task.next - 1) : nullptr;
-    if (pause != nullptr) { state.line = pause->line; }
-    state.remaining_s = seconds_after_pause(task);
-    state.progress = task.progress.share();
-}
-
-/// The LAI method plans a block in parts, and a place on the program does not say in which part it is.
-void PathRunner::report_rests(const PathTask& task, MachineState& state, const AxisRoster& axes) const {
-    if (!knows_places_) { return; }
-    FrameNumber oldest = runner_.sent();
-    for (const AxisView& view : axes.views()) {
-        const bool follows = view.state && view.state->epoch == runner_.epoch();
-        oldest = std::min(oldest, follows ? view.state->ran : 0);
-    }
-    state.job_kind = task.job.kind;
-    state.program = task.job.program_id;
-    runner_.list_rests(oldest, state.rests);
+    task.progress.end_path(subticks(runner_.made().ticks_of(end.ran)));
 }
 
 }  // namespace lockstep

@@ -5,9 +5,9 @@
 #include <optional>
 #include <variant>
 
+#include "core/coordinator/epoch/epoch_runner.hpp"
 #include "core/coordinator/jobs/job.hpp"
 #include "core/coordinator/jobs/path_progress.hpp"
-#include "core/coordinator/path/epoch_runner.hpp"
 #include "core/motion/path.hpp"
 #include "core/pause.hpp"
 

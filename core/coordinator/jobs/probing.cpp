@@ -44,7 +44,7 @@ std::optional<Probed> Probing::end(const PathTask& task, const EpochEnd& end, co
     note(task, touched, touched ? runner.positions_at(*touched, end.ran) : end.positions, loop);
     if (!task.probe->must_touch) { return Probed{}; }
     if (!touched) { return Probed{FaultCode::ProbeNotTouched}; }
-    const bool is_early = !runner.start() || *touched <= *runner.start();
+    const bool is_early = !runner.made().start() || *touched <= *runner.made().start();
     return Probed{is_early ? FaultCode::ProbeTouchedEarly : FaultCode::None};
 }
 

@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "core/coordinator/epoch/epoch_runner.hpp"
 #include "core/coordinator/jobs/path_task.hpp"
-#include "core/coordinator/path/epoch_runner.hpp"
 #include "core/coordinator/state/coordinator_loop.hpp"
 
 namespace lockstep {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/coordinator/path/epoch_runner.hpp"
+#include "core/coordinator/epoch/epoch_end.hpp"
 #include "core/coordinator/program/known_program.hpp"
 #include "core/faults.hpp"
 #include "core/protocol/messages.hpp"

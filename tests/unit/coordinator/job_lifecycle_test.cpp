@@ -3,6 +3,7 @@
 #include "core/coordinator/jobs/inherited_job.hpp"
 #include "core/coordinator/jobs/job_advance.hpp"
 #include "core/coordinator/jobs/job_commands.hpp"
+#include "core/coordinator/jobs/job_report.hpp"
 #include "core/coordinator/path/program_frames.hpp"
 #include "core/methods/paper_steps.hpp"
 

@@ -1,5 +1,5 @@
 // The coordinator's side of an epoch: its frames, its vetoes and its end.
-#include "core/coordinator/path/epoch_runner.hpp"
+#include "core/coordinator/epoch/epoch_runner.hpp"
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ TEST(EpochRunner, RepeatsOnlyTheFramesBeforeAVeto) {
     const auto repeated = [](std::optional<FrameNumber> veto) {
         EpochRunner runner = on_a_long_move();
         Slot slot = 101;
-        for (; runner.sent() < 2; ++slot) { (void)runner.send(slot, says(slot, 0, {}, 0, {})); }
+        for (; runner.made().newest() < 2; ++slot) { (void)runner.send(slot, says(slot, 0, {}, 0, {})); }
         std::vector<FrameNumber> numbers;
         for (const Frame& frame : runner.send(slot, says(slot, 0, veto, 0, {}))) { numbers.push_back(frame.number); }
         return numbers;
@@ -96,8 +96,8 @@ TEST(EpochRunner, MakesNoFramesBehindAVetoHoweverLongTheTail) {
     constexpr FrameNumber kRan = 600;  // at full speed
     Slot slot = 100;
     std::optional<Position> rest;
-    for (; runner.sent() < kRan; ++slot) {
-        for (const Frame& frame : runner.send(slot, says(slot, runner.sent(), {}, 0, {}))) {
+    for (; runner.made().newest() < kRan; ++slot) {
+        for (const Frame& frame : runner.send(slot, says(slot, runner.made().newest(), {}, 0, {}))) {
             if (frame.number != kRan) { continue; }
             rest = frame.axes[0].from;
             for (const Piece& piece : frame.axes[0].body) { rest = *rest + piece.covered(); }
@@ -108,7 +108,7 @@ TEST(EpochRunner, MakesNoFramesBehindAVetoHoweverLongTheTail) {
     for (const Slot braked = slot + 2000; slot < braked; ++slot) {
         (void)runner.send(slot, says(slot, kRan, kRan + 1, 0, {}));
     }
-    EXPECT_EQ(runner.sent(), kRan);
+    EXPECT_EQ(runner.made().newest(), kRan);
     const auto end = runner.evaluate(slot, says(slot, kRan, kRan + 1, kRan, *rest));
     ASSERT_TRUE(end.has_value());
     EXPECT_EQ(end->kind, EpochEnd::Kind::Interrupted);
@@ -118,7 +118,9 @@ TEST(EpochRunner, MakesNoFramesBehindAVetoHoweverLongTheTail) {
 TEST(EpochRunner, AnAxisThatMovesLongAfterAllTailsIsOverdue) {
     EpochRunner runner = on_a_long_move();
     Slot slot = 100;
-    for (; runner.sent() < 20; ++slot) { (void)runner.send(slot, says(slot, runner.sent(), {}, 0, {})); }
+    for (; runner.made().newest() < 20; ++slot) {
+        (void)runner.send(slot, says(slot, runner.made().newest(), {}, 0, {}));
+    }
     runner.stop(slot);
     const Slot patience = 2 * 16 + 2;
     slot += 100'000;  // the coordinator's own stall proves nothing
@@ -137,21 +139,21 @@ TEST(EpochRunner, AnAxisThatMovesLongAfterAllTailsIsOverdue) {
 TEST(EpochRunner, SendsNoFrameOfAnEpochBefore) {
     EpochRunner runner = on_a_long_move();
     Slot slot = 101;
-    for (; runner.sent() < 3; ++slot) { (void)runner.send(slot, says(slot, 0, {}, 0, {})); }
+    for (; runner.made().newest() < 3; ++slot) { (void)runner.send(slot, says(slot, 0, {}, 0, {})); }
     runner.stop(slot);
     runner.begin(2, {0, {}}, {Position{}}, {}, {});
     for (const Slot last = slot + 30; slot < last; ++slot) {
         for (const Frame& frame : runner.send(slot, says(slot, 0, {}, 0, {}, 2))) { EXPECT_EQ(frame.epoch, 2u); }
     }
-    EXPECT_GT(runner.sent(), 0u);
+    EXPECT_GT(runner.made().newest(), 0u);
 }
 
 /// `along` of a place is in mm along its block.
 TEST(EpochRunner, KnowsWhereTheProgramIsAtTheEndOfEachFrame) {
     EpochRunner runner = on_a_long_move();
-    for (Slot slot = 101; runner.sent() < 40; ++slot) {
-        for (const Frame& frame : runner.send(slot, says(slot, runner.sent(), {}, 0, {}))) {
-            EXPECT_NEAR(100 * runner.place_at(frame.start).along.as_steps(), frame.axes[0].from.as_steps(), 1e-6)
+    for (Slot slot = 101; runner.made().newest() < 40; ++slot) {
+        for (const Frame& frame : runner.send(slot, says(slot, runner.made().newest(), {}, 0, {}))) {
+            EXPECT_NEAR(100 * runner.made().place_at(frame.start).along.as_steps(), frame.axes[0].from.as_steps(), 1e-6)
                 << frame.number;
         }
     }
@@ -161,14 +163,15 @@ TEST(EpochRunner, KnowsWhereTheProgramIsAtTheEndOfEachFrame) {
 TEST(EpochRunner, ReturnsItsOldestPlaceForEarlierTimes) {
     EpochRunner runner = on_a_long_move();
     Position early;
-    for (Slot slot = 101; runner.sent() < 200; ++slot) {
-        for (const Frame& frame : runner.send(slot, says(slot, runner.sent(), {}, 0, {}))) {
+    for (Slot slot = 101; runner.made().newest() < 200; ++slot) {
+        for (const Frame& frame : runner.send(slot, says(slot, runner.made().newest(), {}, 0, {}))) {
             if (frame.number == 130) { early = frame.axes[0].from; }
         }
     }
-    const double along_steps = 100 * runner.place_at(*runner.start() + Ticks{1}).along.as_steps();
+    const double along_steps = 100 * runner.made().place_at(*runner.made().start() + Ticks{1}).along.as_steps();
     EXPECT_GT(along_steps, early.as_steps());
-    EXPECT_EQ(runner.place_at(*runner.start() + Ticks{1}), runner.place_at(*runner.start() + Ticks{5000}));
+    EXPECT_EQ(runner.made().place_at(*runner.made().start() + Ticks{1}),
+              runner.made().place_at(*runner.made().start() + Ticks{5000}));
 }
 
 Program moves_of_0_05_mm(int count) {
@@ -182,13 +185,13 @@ Program moves_of_0_05_mm(int count) {
 TEST(EpochRunner, TurnsOnceBehindEachFrameToTheNewestOverrides) {
     EpochRunner runner = runner_of(one_slow_axis(), moves_of_0_05_mm(20'000));
     std::vector<FrameNumber> behind;
-    runner.read_ahead();
+    runner.source()->read_ahead();
     for (Slot slot = 101; slot < 151; ++slot) {
-        runner.set_overrides({50 + static_cast<int>(slot - 100), 100});  // another feed in each slot
-        (void)runner.send(slot, says(slot, runner.sent(), {}, 0, {}));
-        if (const auto change = runner.take_override_change()) {
+        runner.overrides().set({50 + static_cast<int>(slot - 100), 100});  // another feed in each slot
+        (void)runner.send(slot, says(slot, runner.made().newest(), {}, 0, {}));
+        if (const auto change = runner.overrides().take_change()) {
             EXPECT_EQ(change->overrides.feed_percent, 50 + slot - 100);
-            EXPECT_EQ(change->behind + 1, runner.sent());
+            EXPECT_EQ(change->behind + 1, runner.made().newest());
             behind.push_back(change->behind);
         }
     }
@@ -237,11 +240,11 @@ protected:
     /// Sends frames slot by slot up to `until`. Sets `rest` to the place where the last frame rests.
     void go_on(Slot until) {
         for (; slot < until; ++slot) {
-            for (const Frame& frame : runner.send(slot, says(slot, runner.sent(), {}, 0, {}))) {
+            for (const Frame& frame : runner.send(slot, says(slot, runner.made().newest(), {}, 0, {}))) {
                 Position at = frame.axes[0].from;
                 for (const Piece& piece : frame.axes[0].body) { at = at + piece.covered(); }
                 for (const Piece& piece : frame.axes[0].tail) { at = at + piece.covered(); }
-                if (frame.number == runner.sent()) { rest = at; }
+                if (frame.number == runner.made().newest()) { rest = at; }
             }
         }
     }
@@ -256,13 +259,13 @@ protected:
 
 TEST_F(LatePlanner, StartsWhenItsFirstFrameIsKnown) {
     go_on(200);
-    EXPECT_FALSE(runner.start());
-    EXPECT_EQ(runner.sent(), 0u);
+    EXPECT_FALSE(runner.made().start());
+    EXPECT_EQ(runner.made().newest(), 0u);
     EXPECT_FALSE(runner.evaluate(slot, says(slot, 0, {}, 0, {})));
     is_known = true;
     go_on(201);
-    ASSERT_TRUE(runner.start());
-    EXPECT_GT(rules::slot_of(*runner.start(), machine.slot_ticks()), 200 + machine.timing.send_ahead_slots);
+    ASSERT_TRUE(runner.made().start());
+    EXPECT_GT(rules::slot_of(*runner.made().start(), machine.slot_ticks()), 200 + machine.timing.send_ahead_slots);
     EXPECT_FALSE(runner.ending());
 }
 
@@ -278,10 +281,10 @@ TEST_F(LatePlanner, IsInterruptedBeforeItsFirstFrameWhereItBegins) {
 TEST_F(LatePlanner, RestsOnThePathAndGoesOnFromThere) {
     is_known = true;
     go_on(1000);
-    const FrameNumber ran = runner.sent();
+    const FrameNumber ran = runner.made().newest();
     is_known = false;
     go_on(1100);
-    EXPECT_EQ(runner.sent(), ran) << "no frame is made up";
+    EXPECT_EQ(runner.made().newest(), ran) << "no frame is made up";
     EXPECT_EQ(runner.ending(), EpochRunner::Ending::LacksProgram);
     slot += 1000;
     const auto end = runner.evaluate(slot, says(slot, ran, ran + 1, ran, rest));
@@ -294,7 +297,7 @@ TEST_F(LatePlanner, RestsOnThePathAndGoesOnFromThere) {
     runner.begin(2, end->place, end->positions, {}, {});
     bool is_done = false;
     for (const Slot last = slot + 40'000; slot < last && !is_done; ++slot) {
-        for (const Frame& frame : runner.send(slot, says(slot, runner.sent(), {}, 0, {}, 2))) {
+        for (const Frame& frame : runner.send(slot, says(slot, runner.made().newest(), {}, 0, {}, 2))) {
             is_done = frame.last;
             if (frame.number == 1) { EXPECT_EQ(frame.axes[0].from, rest); }
             rest = frame.axes[0].from;
@@ -308,7 +311,7 @@ TEST_F(LatePlanner, RestsOnThePathAndGoesOnFromThere) {
 TEST_F(LatePlanner, ReportsMissingBlocksIfTheDueFrameLackedThemDespiteALaterStall) {
     is_known = true;
     go_on(1000);
-    for (const FrameNumber sent = runner.sent(); runner.sent() == sent;) { go_on(slot + 1); }
+    for (const FrameNumber sent = runner.made().newest(); runner.made().newest() == sent;) { go_on(slot + 1); }
     is_known = false;
     go_on(slot + machine.timing.frame_slots);  // the next one is due
     ASSERT_FALSE(runner.ending());
@@ -351,7 +354,7 @@ protected:
     EndOfEpoch() : runner(runner_of(machine(), long_move())) {
         axes.assign(3, says(100, 0, {}, 0, {})[0]);
         Position rest;
-        for (; runner.sent() < kRan; ++slot) {
+        for (; runner.made().newest() < kRan; ++slot) {
             for (const Frame& frame : runner.send(slot, axes)) {
                 rest = frame.axes[0].from;
                 for (const Piece& piece : frame.axes[0].body) { rest = rest + piece.covered(); }

@@ -1,4 +1,4 @@
-#include "core/coordinator/path/frame_history.hpp"
+#include "core/coordinator/epoch/frame_history.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,0 +1,28 @@
+// The place at which an epoch came to rest.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/kinematics/places.hpp"
+#include "core/motion/path.hpp"
+#include "core/protocol/messages.hpp"
+
+namespace lockstep {
+
+struct EpochEnd {
+    enum class Kind : std::uint8_t {
+        Complete,      // the path is done
+        Interrupted,   // all axes ran the same frames and rest on the path, where they should
+        FramesDiffer,  // the axes did not all run the same frames
+        Misplaced,     // an axis is not where its frames end
+    };
+    Kind kind = Kind::Complete;
+    std::size_t axis = 0;  // Misplaced, FramesDiffer: the axis concerned
+    FrameNumber ran = 0;
+    PathPlace place;           // on the program
+    MotorPositions positions;  // the exact ones
+    bool has_pulses = false;   // devices were told the places of the newest M69
+};
+
+}  // namespace lockstep

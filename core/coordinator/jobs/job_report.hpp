@@ -1,0 +1,12 @@
+// What the coordinator's state reports of the machine's job.
+#pragma once
+
+#include "core/coordinator/jobs/job_lifecycle.hpp"
+#include "core/coordinator/state/coordinator_loop.hpp"
+
+namespace lockstep {
+
+/// Reports the job in progress, or the last one.
+void report_job(const JobLifecycle& jobs, MachineState& state, const LoopView& loop);
+
+}  // namespace lockstep
