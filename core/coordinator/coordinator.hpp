@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "core/coordinator/axis_watch.hpp"
 #include "core/coordinator/command_inbox.hpp"
 #include "core/coordinator/jobs/inherited_job.hpp"
 #include "core/coordinator/jobs/job_lifecycle.hpp"
@@ -21,23 +22,17 @@ public:
     Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash, BeginSteps begin_steps,
                 std::optional<OnTakeover> standby = std::nullopt, MakeRows make_rows = memory_rows);
 
-    /// Takes a whole program. Command::program names it. Only the newest few are kept.
-    void accept_program(std::uint64_t id, const Program& program) { programs_.accept(id, program); }
-    /// From now on a command that names the program is refused. Its job continues.
-    void forget_program(std::uint64_t id) { programs_.forget(id); }
+    /// The programs that commands name.
+    ProgramStore& programs() { return programs_; }
 
     /// Valid until the next step. The caller may complete the state before it publishes it.
     CoordinatorOutputs& step(const CoordinatorInputs& inputs);
 
     MachinePhase phase() const { return jobs_.activity().phase(); }
-    /// A job is in motion, held, or inherited by a takeover.
-    bool has_job() const { return jobs_.has_job(); }
-    /// A job waits for a person, and nothing moves.
-    bool is_paused() const { return phase() == MachinePhase::Paused; }
+    /// What the machine does.
+    const MachineActivity& activity() const { return jobs_.activity(); }
     bool owns_machine() const { return ownership_.owns(); }
-    /// Whether this writer may send programs and edits now. A standby refuses nothing, because the owner does.
-    CommandResult check_writer(std::uint64_t writer, Tick now) const { return lease_.check(writer, now); }
-    const std::optional<HeldLease>& lease() const { return lease_.held(); }
+    const WriterLease& lease() const { return lease_; }
     /// Its own term if it owns the machine, otherwise the highest that is known.
     Term term() const { return ownership_.term(); }
 
@@ -46,31 +41,19 @@ private:
     bool is_late(Tick now);
     void receive(const CoordinatorInputs& inputs, CoordinatorLoop& loop);
     void receive(const AxisState& state, CoordinatorLoop& loop);
-    void receive(const ProgramPart& part, CoordinatorLoop& loop);
     void change_owner(CoordinatorLoop& loop);
     void take_over(CoordinatorLoop& loop);
     void stand_down(CoordinatorLoop& loop);
     void stand_by(CoordinatorLoop& loop);
-    void refuse_as_standby(const Command& command, Slot now);
 
     // Called on an owner only.
     void own(CoordinatorLoop& loop);
     void tend_lease(Slot missed, CoordinatorLoop& loop);
-    void watch_stop_inputs(CoordinatorLoop& loop);
-    void watch_axis(std::size_t axis, CoordinatorLoop& loop);
-    void lose_axis(std::size_t axis, CoordinatorLoop& loop);
-    void lose_outputs(std::size_t axis, CoordinatorLoop& loop);
     void answer(const Command& command, CoordinatorLoop& loop);
     bool answer_about_lease(const Command& command, CoordinatorLoop& loop);
-    CommandResult carry_out(const Command& command, CoordinatorLoop& loop);
-    CommandResult reset(CoordinatorLoop& loop);
-    CommandResult stop_at_once(CoordinatorLoop& loop);
     void advance(CoordinatorLoop& loop);
-    bool are_axes_ready(const CoordinatorLoop& loop) const;
-    void wait_for_axes(CoordinatorLoop& loop);
 
     void report(CoordinatorLoop& loop) const;
-    std::optional<Epoch> devices_after() const;
 
     MachineConfig machine_;
     Kinematics kinematics_;
@@ -86,9 +69,9 @@ private:
     BeginSteps begin_steps_;
     JobLifecycle jobs_;
     Inheritance inheritance_;
+    AxisWatch watch_;
     SlotGate gate_;
     std::optional<Tick> stepped_;
-    bool is_stopped_by_input_ = false;
     CoordinatorOutputs out_;
 };
 

@@ -134,10 +134,11 @@ private:
     /// because its sender may send the rest after another writer has taken over the machine.
     CommandResult accept(const ProgramChunk& chunk, const ProgramDocument& part) {
         if (chunk.index == 0) {
-            if (auto may = coordinator_.check_writer(chunk.writer, looped_); !may) { return may; }
+            if (auto may = coordinator_.lease().check(chunk.writer, looped_); !may) { return may; }
         }
-        const auto accepted = values_.accept(
-            chunk, part, {coordinator_.owns_machine(), coordinator_.has_job(), coordinator_.is_paused()});
+        const auto accepted = values_.accept(chunk, part,
+                                             {coordinator_.owns_machine(), coordinator_.activity().has_job(),
+                                              coordinator_.phase() == MachinePhase::Paused});
         return accepted ? CommandResult{} : refuse(FaultCode::BadProgram, text_of(accepted.error()));
     }
 
@@ -153,8 +154,10 @@ private:
 
     /// A job that was taken over needs its program until it ends, so nothing is forgotten during a job.
     void forget_outdated_programs() {
-        if (!coordinator_.owns_machine() || coordinator_.has_job()) { return; }
-        for (const std::uint64_t program : values_.keeper().take_outdated()) { coordinator_.forget_program(program); }
+        if (!coordinator_.owns_machine() || coordinator_.activity().has_job()) { return; }
+        for (const std::uint64_t program : values_.keeper().take_outdated()) {
+            coordinator_.programs().forget(program);
+        }
     }
 
     /// Called before the state that reports the job's end is published. A receiver of that state already has the values
@@ -257,7 +260,7 @@ private:
     }
 
     void log_writer() {
-        const auto& lease = coordinator_.lease();
+        const auto& lease = coordinator_.lease().held();
         if (lease == logged_lease_) { return; }
         logged_lease_ = lease;
         log_info(lease ? fmt::format("the writer is {} on {}", lease->writer.name, lease->writer.host)

@@ -20,7 +20,7 @@ CoordinatorOutputs VirtualCoordinators::step(std::size_t number, const Coordinat
 
 void VirtualCoordinators::give_program(std::uint64_t id, const Program& program) {
     for (Process& one : processes_) {
-        if (one.coordinator) { one.coordinator->accept_program(id, program); }
+        if (one.coordinator) { one.coordinator->programs().accept(id, program); }
     }
 }
 

@@ -127,6 +127,8 @@ public:
     /// The innermost job, which may take place in the pause of another; or null.
     const MachineJob* job() const;
     MachineJob* job();
+    /// A job is in motion, held, or inherited by a takeover.
+    bool has_job() const { return job() != nullptr || inherited() != nullptr; }
     /// The job in whose pause job() takes place, or null.
     const activity::Paused* pause() const;
     activity::Paused* pause();

@@ -87,7 +87,7 @@ void settle_homing_move(activity::OnPath& path, const EpochEnd& end, JobLifecycl
 
 void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& loop) {
     if (path.jog && path.intent == Intent::GoOn && path.jog->is_released(loop.now)) {
-        jobs.brake_on_path(Intent::Stop, loop);
+        brake_on_path(Intent::Stop, jobs, loop);
     }
     if (const auto end = jobs.path().advance(path.task, loop, loop.out)) {
         if (path.homing) { return settle_homing_move(path, *end, jobs, loop); }

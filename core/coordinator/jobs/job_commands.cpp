@@ -139,7 +139,7 @@ CommandResult press_on_path(const Command& command, activity::OnPath& path, JobL
         if (const auto possible = jog_program(command, loop); !possible) { return std::unexpected(possible.error()); }
     }
     jog.replace(command, loop);
-    if (path.intent == Intent::GoOn) { jobs.brake_on_path(Intent::Stop, loop); }
+    if (path.intent == Intent::GoOn) { brake_on_path(Intent::Stop, jobs, loop); }
     return {};
 }
 
@@ -149,8 +149,22 @@ CommandResult interrupt_alone(Intent intent, JobLifecycle& jobs, CoordinatorLoop
         return refuse(FaultCode::Busy,
                       "moves of axes on their own cannot be held and resumed; stop them: lockstep stop");
     }
-    jobs.halt_axes(loop);
+    halt_axes(jobs.activity(), loop);
     jobs.activity().bring_to_rest(Intent::Stop, loop.out);
+    return {};
+}
+
+/// A job that waits for an input waits for a person from now on.
+void wait_for_person(PauseReason why, MachineActivity& activity, CoordinatorLoop& loop) {
+    activity::Paused paused = check_found(activity.as<activity::Paused>(), "a job that waits for an input pauses");
+    paused.why.reason = why;
+    paused.watch.reset();
+    activity.become(MachineEvent::Pauses, std::move(paused), loop.out);
+}
+
+CommandResult stop_at_once(JobLifecycle& jobs, CoordinatorLoop& loop) {
+    loop.order_each(all_axes(loop.axes.size()), AxisCommandKind::StopNow);
+    jobs.fail({FaultCode::EmergencyStopped}, loop);
     return {};
 }
 
@@ -280,7 +294,7 @@ bool renew_jog(const Command& command, JobLifecycle& jobs, const LoopView& loop)
 CommandResult interrupt(Intent intent, JobLifecycle& jobs, CoordinatorLoop& loop) {
     MachineActivity& activity = jobs.activity();
     if (waits_for_input(activity) && intent == Intent::Hold) {
-        jobs.end_wait(PauseReason::Hold, loop);
+        wait_for_person(PauseReason::Hold, jobs.activity(), loop);
         return {};
     }
     if (activity.is_held()) {
@@ -300,7 +314,7 @@ CommandResult interrupt(Intent intent, JobLifecycle& jobs, CoordinatorLoop& loop
     if (intent == Intent::Hold && activity.intent() > Intent::Hold) {
         return refuse(FaultCode::Busy, "the machine is already stopping, and the job ends with the stop");
     }
-    jobs.brake_on_path(intent, loop);
+    brake_on_path(intent, jobs, loop);
     return {};
 }
 
@@ -345,12 +359,33 @@ CommandResult set_overrides(const Command& command, JobLifecycle& jobs, const Lo
 }
 
 CommandResult reset(JobLifecycle& jobs, CoordinatorLoop& loop) {
+    if (auto released = check_emergency_stops(loop); !released) { return released; }
     MachineActivity& activity = jobs.activity();
     if (activity.in_motion()) { return refuse(FaultCode::Busy, "the machine is in motion"); }
     if (activity.is_held()) { jobs.end(JobOutcome::Stopped, loop); }
     jobs.cut_inherited(TakeoverDoubt::Interrupted, loop);
     activity.become(MachineEvent::Reset, activity::Waiting{}, loop.out);
+    loop.order_each(all_axes(loop.axes.size()), AxisCommandKind::Reset);
     return {};
+}
+
+CommandResult carry_out(const Command& command, BeginSteps begin_steps, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    switch (command.kind) {
+        case CommandKind::Home: return home(command, jobs, loop);
+        case CommandKind::Move:
+        case CommandKind::Run: return run(command, jobs, loop);
+        case CommandKind::Hold: return interrupt(Intent::Hold, jobs, loop);
+        case CommandKind::Stop: return interrupt(Intent::Stop, jobs, loop);
+        case CommandKind::Resume: return resume(command, jobs, loop);
+        case CommandKind::Reset: return reset(jobs, loop);
+        case CommandKind::EmergencyStop: return stop_at_once(jobs, loop);
+        case CommandKind::MoveOwn: return move_own(command, begin_steps, jobs, loop);
+        case CommandKind::Override: return set_overrides(command, jobs, loop);
+        case CommandKind::Jog: return jog(command, jobs, loop);
+        case CommandKind::TakeLease:
+        case CommandKind::GiveLease: break;  // answered before
+    }
+    return refuse(FaultCode::NothingToDo, "unknown command");
 }
 
 void go_on_at_input(JobLifecycle& jobs, CoordinatorLoop& loop) {
@@ -360,7 +395,7 @@ void go_on_at_input(JobLifecycle& jobs, CoordinatorLoop& loop) {
     const bool can_go_on = check_present(loop) && check_clocks(loop);
     switch (paused.watch->look(can_go_on ? is_closed : std::nullopt, loop.now)) {
         case InputWatch::Result::Waits: return;
-        case InputWatch::Result::TimedOut: return jobs.end_wait(PauseReason::InputTimeout, loop);
+        case InputWatch::Result::TimedOut: return wait_for_person(PauseReason::InputTimeout, jobs.activity(), loop);
         case InputWatch::Result::IsMet: return jobs.go_on(std::move(paused), loop);
     }
 }

@@ -30,6 +30,8 @@ CommandResult resume(const Command& command, JobLifecycle& jobs, CoordinatorLoop
 CommandResult set_overrides(const Command& command, JobLifecycle& jobs, const LoopView& loop);
 /// A person gives up the job, held or inherited, and the fault.
 CommandResult reset(JobLifecycle& jobs, CoordinatorLoop& loop);
+/// Carries out any command, except those about the lease.
+CommandResult carry_out(const Command& command, BeginSteps begin_steps, JobLifecycle& jobs, CoordinatorLoop& loop);
 
 /// Call it once a slot. A job that waits for an input goes on when the input is as wanted, and waits for a person after
 /// the time limit.

@@ -13,8 +13,6 @@ std::uint64_t number_of(std::optional<std::int32_t> line) { return static_cast<s
 
 }  // namespace
 
-bool JobLifecycle::has_job() const { return activity_.job() != nullptr || activity_.inherited() != nullptr; }
-
 MachineJob JobLifecycle::begin(JobKind kind, const Command& command, std::shared_ptr<const KnownProgram> program,
                                const AxisCounts& start, CoordinatorLoop& loop) {
     const bool is_path = kind == JobKind::Run || kind == JobKind::Move;
@@ -51,7 +49,10 @@ void JobLifecycle::follow(PathTask task, const PathNext& next, std::optional<act
         if (end->why == FaultCode::None) { return finish(task.job, JobOutcome::Done, loop); }
         return end_early(task.job, task.job.program->last_line(), end->why, loop);
     }
-    pause ? end_in_pause(task.job, *std::move(pause), JobOutcome::Done, loop) : end_program(task.job, loop);
+    if (pause) { return end_in_pause(task.job, *std::move(pause), JobOutcome::Done, loop); }
+    const KnownProgram& program = *task.job.program;
+    if (program.cut()) { return end_early(task.job, program.last_line(), program.cut()->why, loop); }
+    finish(task.job, JobOutcome::Done, loop);
 }
 
 void JobLifecycle::pause(activity::Paused paused, CoordinatorLoop& loop) {
@@ -60,13 +61,6 @@ void JobLifecycle::pause(activity::Paused paused, CoordinatorLoop& loop) {
         paused.why.reason = PauseReason::Input;
         paused.watch.emplace(wait->mode, loop.slot, loop.now + limit);
     }
-    activity_.become(MachineEvent::Pauses, std::move(paused), loop.out);
-}
-
-void JobLifecycle::end_wait(PauseReason why, CoordinatorLoop& loop) {
-    activity::Paused paused = check_found(activity_.as<activity::Paused>(), "a job that waits for an input pauses");
-    paused.why.reason = why;
-    paused.watch.reset();
     activity_.become(MachineEvent::Pauses, std::move(paused), loop.out);
 }
 
@@ -105,12 +99,6 @@ void JobLifecycle::end_in_pause(const MachineJob& job, activity::Paused pause, J
     pause.why.wait ? this->pause(std::move(pause), loop) : go_on(std::move(pause), loop);
 }
 
-/// Ends the job where its program ends, or where the program was cut.
-void JobLifecycle::end_program(const MachineJob& job, CoordinatorLoop& loop) {
-    const auto& cut = job.program->cut();
-    cut ? end_early(job, job.program->last_line(), cut->why, loop) : finish(job, JobOutcome::Done, loop);
-}
-
 void JobLifecycle::end_early(const MachineJob& job, std::optional<std::int32_t> line, FaultCode why,
                              CoordinatorLoop& loop) {
     finish(job, JobOutcome::Stopped, loop);
@@ -122,7 +110,7 @@ void JobLifecycle::fail(const MachineFault& fault, CoordinatorLoop& loop) {
     if (activity_.has_fault()) { return; }
     if (!activity_.in_motion()) { return fail_at_rest(fault, loop); }
     loop.notice({CoordinatorNotice::Kind::Fault, fault.code, fault.axis});
-    activity_.is<activity::OnPath>() ? path_.runner().stop(loop.next_state) : halt_axes(loop);
+    activity_.is<activity::OnPath>() ? path_.runner().stop(loop.next_state) : halt_axes(activity_, loop);
     activity_.abort(fault, loop.out);
 }
 
@@ -138,23 +126,6 @@ void JobLifecycle::fail_at_rest(const MachineFault& fault, CoordinatorLoop& loop
     activity_.become(MachineEvent::Fails, activity::InFault{first}, loop.out);
 }
 
-void JobLifecycle::brake_on_path(Intent intent, CoordinatorLoop& loop) {
-    path_.runner().stop(loop.next_state);
-    activity_.bring_to_rest(intent, loop.out);
-}
-
-/// An axis that was ordered an emergency stop before keeps this order as its newest one.
-void JobLifecycle::halt_axes(CoordinatorLoop& loop) {
-    if (auto* const jogging = activity_.as<activity::Jogging>()) { jogging->jogs.release_all(); }
-    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
-        const bool moves = loop.orders.is_open(i, AxisCommandKind::MoveOwn, loop.axes) ||
-                           loop.orders.is_open(i, AxisCommandKind::Home, loop.axes) ||
-                           loop.orders.is_open(i, AxisCommandKind::Approach, loop.axes) ||
-                           loop.orders.is_open(i, AxisCommandKind::Jog, loop.axes);
-        if (moves) { (void)loop.order(i, AxisCommandKind::Halt); }
-    }
-}
-
 void JobLifecycle::cut_inherited(TakeoverDoubt doubt, CoordinatorLoop& loop) {
     if (activity_.inherited() == nullptr) { return; }
     count_.cut(activity_.inherited()->line);
@@ -166,6 +137,23 @@ void JobLifecycle::cut_inherited(TakeoverDoubt doubt, CoordinatorLoop& loop) {
 void JobLifecycle::stand_down(CoordinatorLoop& loop) {
     if (activity_.job() != nullptr) { count_.end(JobOutcome::Stopped); }
     activity_.become(MachineEvent::StoodDown, activity::Standby{}, loop.out);
+}
+
+void brake_on_path(Intent intent, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    jobs.path().runner().stop(loop.next_state);
+    jobs.activity().bring_to_rest(intent, loop.out);
+}
+
+/// An axis that was ordered an emergency stop before keeps this order as its newest one.
+void halt_axes(MachineActivity& activity, CoordinatorLoop& loop) {
+    if (auto* const jogging = activity.as<activity::Jogging>()) { jogging->jogs.release_all(); }
+    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
+        const bool moves = loop.orders.is_open(i, AxisCommandKind::MoveOwn, loop.axes) ||
+                           loop.orders.is_open(i, AxisCommandKind::Home, loop.axes) ||
+                           loop.orders.is_open(i, AxisCommandKind::Approach, loop.axes) ||
+                           loop.orders.is_open(i, AxisCommandKind::Jog, loop.axes);
+        if (moves) { (void)loop.order(i, AxisCommandKind::Halt); }
+    }
 }
 
 }  // namespace lockstep

@@ -22,8 +22,6 @@ public:
     /// The machine's jobs so far.
     const JobCount& count() const { return count_; }
     JobCount& count() { return count_; }
-    /// A job is in motion, held, or inherited by a takeover.
-    bool has_job() const;
 
     /// Records the begin of a job. The caller enters its activity.
     MachineJob begin(JobKind kind, const Command& command, std::shared_ptr<const KnownProgram> program,
@@ -35,8 +33,6 @@ public:
     void follow(PathTask task, const PathNext& next, std::optional<activity::Paused> pause, CoordinatorLoop& loop);
     /// The job rests between two legs. If its program asks for an input, it waits for that from now on.
     void pause(activity::Paused paused, CoordinatorLoop& loop);
-    /// A job that waits for an input waits for a person from now on.
-    void end_wait(PauseReason why, CoordinatorLoop& loop);
     /// Begins the next leg of a paused job.
     void go_on(activity::Paused paused, CoordinatorLoop& loop);
     /// Ends the job in motion or held: done or stopped. A job in whose pause it took place waits again, or goes on.
@@ -47,10 +43,6 @@ public:
     void fail(const MachineFault& fault, CoordinatorLoop& loop);
     /// A fault that was found when the machine had come to rest.
     void fail_at_rest(const MachineFault& fault, CoordinatorLoop& loop);
-    /// Axes that move together come to rest on the path.
-    void brake_on_path(Intent intent, CoordinatorLoop& loop);
-    /// Axes that move by themselves come to rest.
-    void halt_axes(CoordinatorLoop& loop);
 
     /// The inherited job, if there is one, ends where the axes rest.
     void cut_inherited(TakeoverDoubt doubt, CoordinatorLoop& loop);
@@ -61,12 +53,16 @@ private:
     void note_end(const MachineJob& job, JobOutcome outcome, CoordinatorLoop& loop);
     void finish(const MachineJob& job, JobOutcome outcome, CoordinatorLoop& loop);
     void end_in_pause(const MachineJob& job, activity::Paused pause, JobOutcome outcome, CoordinatorLoop& loop);
-    void end_program(const MachineJob& job, CoordinatorLoop& loop);
     void end_early(const MachineJob& job, std::optional<std::int32_t> line, FaultCode why, CoordinatorLoop& loop);
 
     MachineActivity activity_;
     JobCount count_;
     PathRunner path_;
 };
+
+/// Axes that move together come to rest on the path.
+void brake_on_path(Intent intent, JobLifecycle& jobs, CoordinatorLoop& loop);
+/// Axes that move by themselves come to rest.
+void halt_axes(MachineActivity& activity, CoordinatorLoop& loop);
 
 }  // namespace lockstep

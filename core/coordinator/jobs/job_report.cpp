@@ -86,7 +86,7 @@ void report_job(const JobLifecycle& jobs, MachineState& state, const LoopView& l
     const MachineActivity& activity = jobs.activity();
     const JobCount& count = jobs.count();
     state.job = count.number();
-    state.outcome = jobs.has_job() ? std::nullopt : count.outcome();
+    state.outcome = activity.has_job() ? std::nullopt : count.outcome();
     state.job_begun = count.begun_in();
     state.line = count.line();
     state.job_fault = count.fault();

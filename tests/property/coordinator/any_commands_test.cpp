@@ -119,7 +119,7 @@ private:
         command.axes = one_of(5) ? random_() % 8 : 0;
         command.program = one_of(20) ? 1 : sequence_;
         const Program program = draw_program();
-        for (const Process& process : processes_) { process.coordinator->accept_program(sequence_, program); }
+        for (const Process& process : processes_) { process.coordinator->programs().accept(sequence_, program); }
         if (one_of(3)) { command.ticks = Ticks{static_cast<std::int64_t>(random_() % 3'000'000)}; }
         if (one_of(2)) { command.feed_percent = static_cast<int>(5 + random_() % 200); }
         if (one_of(2)) { command.rapid_percent = static_cast<int>(5 + random_() % 100); }
@@ -153,7 +153,9 @@ private:
         const auto commanded = commands();
         const auto heard = others(now);
         const auto states = axes_.states(now, owner().owns_machine() ? owner().term() : Term{});
-        if (has_standby() && one_of(owner().has_job() ? 100 : 900)) { start(random_() % processes_.size(), now); }
+        if (has_standby() && one_of(owner().activity().has_job() ? 100 : 900)) {
+            start(random_() % processes_.size(), now);
+        }
         for (std::size_t i = 0; i < processes_.size(); ++i) {
             std::vector<MachineState> received = heard;
             if (has_standby()) { received.push_back(processes_[1 - i].state); }

@@ -71,7 +71,7 @@ TEST_F(RunningAxis, AllocatesNothingWhileAJobRunsIsHeldAndResumes) {
     for (const double x : {50.0, 10.0, 60.0, 5.0}) {
         there_and_back.blocks.push_back({1, ProgramMove{{x}, 40, false}});
     }
-    coordinator_.accept_program(1, there_and_back);
+    coordinator_.programs().accept(1, there_and_back);
     run_hold_and_resume();
     const std::size_t steps_before = steps_.size();
 

@@ -168,7 +168,7 @@ protected:
 
 TEST_F(RunningCoordinator, AllocatesNothingWhileAJobRunsIsHeldAndResumes) {
     begin();
-    coordinator_.accept_program(1, all_kinds());
+    coordinator_.programs().accept(1, all_kinds());
     run_program();
     const std::uint64_t steps_before = steps_;
     const std::size_t frames_before = frames_;
@@ -201,7 +201,7 @@ TEST_F(RunningLai, AllocatesNothingWhileAJobMoves) {
         program.blocks.push_back(
             {static_cast<std::int32_t>(program.blocks.size() + 1), ProgramMove{{x, x}, 40, false}});
     }
-    coordinator_.accept_program(1, std::move(program));
+    coordinator_.programs().accept(1, std::move(program));
     ask(CommandKind::Run, "begin of a job");
     ASSERT_TRUE(reaches(MachinePhase::Idle, "run"));
     ask(CommandKind::Run, "begin of a job");

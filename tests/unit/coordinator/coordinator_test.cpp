@@ -61,7 +61,7 @@ protected:
 
 TEST_F(CoordinatorAlone, AStopThatAnAxisDoesNotFollowEndsInAFaultThatNamesIt) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 1000));
-    coordinator_.accept_program(
+    coordinator_.programs().accept(
         1, {.name = "far", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, ProgramMove{{90}, 20, false}}}});
     ask(CommandKind::Run, 1);
     for (int i = 0; i < 200; ++i) { slot(); }
@@ -94,7 +94,7 @@ TEST_F(CoordinatorAlone, ReportsWhatIsLeftOfAJobAndWhereItMayRest) {
         .axes = {"X"},
         .start_mm = {0},
         .blocks = {{1, ProgramMove{{10}, 10, false}}, {2, Pause{}}, {3, ProgramMove{{60}, 10, false}}}};
-    coordinator_.accept_program(1, program);
+    coordinator_.programs().accept(1, program);
     ask(CommandKind::Run, 1);
     for (int i = 0; i < 100; ++i) { slot(); }
     ASSERT_EQ(state_.phase, MachinePhase::Running);
@@ -109,7 +109,7 @@ TEST_F(CoordinatorAlone, ReportsWhatIsLeftOfAJobAndWhereItMayRest) {
 
 TEST_F(CoordinatorAlone, ReportsRestsFromTheStartOfTheEpochWhileAnAxisDoesNotFollowIt) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 1000));
-    coordinator_.accept_program(
+    coordinator_.programs().accept(
         1, {.name = "far", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, ProgramMove{{90}, 20, false}}}});
     ask(CommandKind::Run, 1);
     for (int i = 0; i < 100 && state_.sent == 0; ++i) { slot(); }
@@ -154,7 +154,7 @@ TEST_F(CoordinatorAlone, IsNotReadyWhileAnAxisDoesNotFollowIt) {
 class StandbyAlone : public CoordinatorAlone {
 protected:
     StandbyAlone() {
-        standby_.accept_program(
+        standby_.programs().accept(
             1, {.name = "far", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, ProgramMove{{90}, 20, false}}}});
         owner_ = {.term = {500, 4},
                   .phase = MachinePhase::Running,
@@ -208,7 +208,7 @@ TEST_F(StandbyAlone, EndsTheJobIfAnAxisFallsSilentBeforeItContinues) {
 TEST_F(StandbyAlone, FailsWhereNoFrameLeadsFromWhereTheAxisRests) {
     ProgramMove wide{{90}, 20, false};
     wide.tolerance_mm = 10;
-    standby_.accept_program(1, {.name = "far", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, wide}}});
+    standby_.programs().accept(1, {.name = "far", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, wide}}});
     axis_.epoch = owner_.epoch;
     axis_.ran = 5;
     axis_.position = Position::steps(2500);

@@ -58,7 +58,7 @@ protected:
         ask(CommandKind::Home);
         ASSERT_TRUE(reaches(MachinePhase::Idle));
         const ProgramEvent event{.kind = ProgramEvent::Kind::OutputOn, .index = 3};
-        coordinator_.accept_program(
+        coordinator_.programs().accept(
             1, {.name = "held",
                 .axes = {"X", "Y"},
                 .start_mm = {5, 5},

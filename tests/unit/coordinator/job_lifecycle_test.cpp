@@ -52,7 +52,7 @@ TEST_F(Running, RefusesAProgramThatHasNotArrived) {
     const CommandResult result =
         ask([&](auto& l) { return commands::run({.kind = CommandKind::Run, .program = 9}, jobs, l); });
     EXPECT_EQ(result.error().why, FaultCode::UnknownProgram);
-    EXPECT_FALSE(jobs.has_job());
+    EXPECT_FALSE(jobs.activity().has_job());
 }
 
 TEST_F(Running, RefusesAProgramThatEndsBeforeItsEndWithTheLine) {
@@ -70,7 +70,7 @@ TEST_F(Running, AProgramThatMovesNothingEndsAtOnce) {
     still.blocks.assign(ProgramFrames::kBlocksAtOnce - 1, {1, Dwell{0}});
     programs.accept(1, still);
     ASSERT_EQ(run(), FaultCode::None);
-    EXPECT_FALSE(jobs.has_job());
+    EXPECT_FALSE(jobs.activity().has_job());
     EXPECT_TRUE(has_job_event(JobEvent::Kind::Ended));
     EXPECT_FALSE(has_job_event(JobEvent::Kind::EpochBegun));
 }
@@ -137,10 +137,10 @@ TEST_F(Running, HomingEndsWhenEveryAxisHasDoneItsOrder) {
     EXPECT_EQ(jobs.activity().phase(), MachinePhase::Homing);
     finish_order(0);
     ask([&](auto& l) { advance_job(jobs, l); });
-    EXPECT_TRUE(jobs.has_job());
+    EXPECT_TRUE(jobs.activity().has_job());
     finish_order(1);
     ask([&](auto& l) { advance_job(jobs, l); });
-    EXPECT_FALSE(jobs.has_job());
+    EXPECT_FALSE(jobs.activity().has_job());
     EXPECT_TRUE(has_job_event(JobEvent::Kind::Ended));
     EXPECT_EQ(jobs.activity().phase(), MachinePhase::Idle);
 }
@@ -168,7 +168,7 @@ TEST_F(Running, OwnMovesEndAtTheirTargetsOrInAFault) {
 TEST_F(Running, StandingDownForgetsTheJobWithoutARecord) {
     ASSERT_EQ(run(), FaultCode::None);
     ask([&](auto& l) { jobs.stand_down(l); });
-    EXPECT_FALSE(jobs.has_job());
+    EXPECT_FALSE(jobs.activity().has_job());
     EXPECT_FALSE(jobs.activity().in_motion());
     MachineState state;
     report_job(jobs, state, loop());
@@ -187,7 +187,7 @@ TEST_F(Running, StandingDownEndsAPauseAndAJogInIt) {
         }
         ask([&](auto& l) { jobs.stand_down(l); });
         EXPECT_EQ(jobs.activity().phase(), MachinePhase::Standby);
-        EXPECT_FALSE(jobs.has_job());
+        EXPECT_FALSE(jobs.activity().has_job());
         EXPECT_EQ(jobs.count().outcome(), JobOutcome::Stopped);
         enter_idle(jobs);
     }
@@ -219,7 +219,7 @@ TEST_F(RunningByLai, RefusesAMoveThatIsTooSlowWithItsLine) {
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().why, FaultCode::BadProgram);
     EXPECT_TRUE(result.error().text.starts_with("line 5: ")) << result.error().text;
-    EXPECT_FALSE(jobs.has_job());
+    EXPECT_FALSE(jobs.activity().has_job());
 }
 
 TEST_F(RunningByLai, RunsMovesOfAtLeastAPulsePerPeriod) {

@@ -141,7 +141,7 @@ protected:
         Inheritance(on_takeover, 1).take_over(state, jobs, l);
         EXPECT_EQ(jobs.activity().phase(), MachinePhase::Waiting);
         const auto cut = std::ranges::find(out.notices, CoordinatorNotice::Kind::JobCutShort, &CoordinatorNotice::kind);
-        EXPECT_EQ(jobs.has_job(), cut == out.notices.end());
+        EXPECT_EQ(jobs.activity().has_job(), cut == out.notices.end());
         return cut == out.notices.end() ? std::nullopt : std::optional(cut->doubt);
     }
     MachineState last;
@@ -171,7 +171,7 @@ TEST_F(Inherited, AJobThatEndedIsNotTakenOver) {
     JobLifecycle jobs(machine);
     CoordinatorLoop l = loop();
     Inheritance(OnTakeover::Continue, 1).take_over(last, jobs, l);
-    EXPECT_FALSE(jobs.has_job());
+    EXPECT_FALSE(jobs.activity().has_job());
     EXPECT_EQ(jobs.count().number(), 5u);
     EXPECT_EQ(jobs.count().outcome(), JobOutcome::Done);
 }
@@ -183,7 +183,7 @@ TEST_F(Inherited, NothingElseBeginsBeforeItsProgramIsAtHand) {
     JobLifecycle jobs(machine);
     CoordinatorLoop l = loop();
     Inheritance(OnTakeover::Continue, 1).take_over(last, jobs, l);
-    ASSERT_TRUE(jobs.has_job());
+    ASSERT_TRUE(jobs.activity().has_job());
     EXPECT_EQ(commands::run({.kind = CommandKind::Run, .program = 1}, jobs, l).error().why, FaultCode::NotReady);
 }
 
