@@ -143,7 +143,9 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(ProbeNotTouched, 152, "probe-not-touched", "a probing move came to its end without a touch", \
       "check the probe and its wire, and that the workpiece is where the move leads; a longer move searches further", in_order(Remedy::Again)) \
     X(ProbeTouchedEarly, 153, "probe-touched-early", "the probe touched before the probing move had begun", \
-      "check the probe and its wire; move it away from what it touches", in_order(Remedy::Again))
+      "check the probe and its wire; move it away from what it touches", in_order(Remedy::Again)) \
+    X(TouchInMotion, 154, "touch-in-motion", "a probe touched while the machine moved without a probing move", \
+      "find out what it touched, and move the axes away after the reset; home them if they were pushed", in_order(Remedy::Reset))
 // clang-format on
 
 enum class FaultCode : std::uint16_t {

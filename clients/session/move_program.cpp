@@ -114,7 +114,7 @@ std::expected<int, std::string> chosen_probe(const MachineConfig& machine, std::
     const std::string probes = probes_text(machine);
     if (probes.empty()) { return std::unexpected("the machine has no probe; write input { use: PROBE } in its file"); }
     const auto is_probe = [](const InputConfig& input) { return input.use == InputUse::Probe; };
-    if (!number && std::ranges::count_if(machine.inputs, is_probe) > 1) {
+    if (!number && has_several_probes(machine.inputs)) {
         return std::unexpected("the machine has several probes; choose one with --probe:" + probes);
     }
     const int chosen = number.value_or(std::ranges::find_if(machine.inputs, is_probe)->number.value_or(0));

@@ -86,7 +86,7 @@ std::optional<proto::FaultReport> fault_of(const MachineState& state, const Mach
     const bool has_axis = state.fault_axis && *state.fault_axis < motor_count(machine);
     if (!has_axis) { return fault_report(state.fault, ""); }
     proto::FaultReport report = motor_fault(state.fault, Kinematics(machine), *state.fault_axis);
-    name_stop_inputs(machine, *state.fault_axis, report);
+    name_inputs(machine, *state.fault_axis, report);
     return report;
 }
 
@@ -184,7 +184,7 @@ void name_faults(const Session& session, AxisSet motors, proto::AxisStatus& row)
                 has_axis(motors, m) && session.received().motor(m) && session.received().motor(m)->state.*of == code;
             if (!has_it) { continue; }
             proto::FaultReport of_motor = motor_fault(code, session.received().kinematics(), m);
-            name_stop_inputs(session.config(), m, of_motor);
+            name_inputs(session.config(), m, of_motor);
             return of_motor;
         }
         return fault;

@@ -8,6 +8,7 @@
 #include "core/coordinator/command_inbox.hpp"
 #include "core/coordinator/jobs/inherited_job.hpp"
 #include "core/coordinator/jobs/job_lifecycle.hpp"
+#include "core/coordinator/jobs/touch_watch.hpp"
 #include "core/coordinator/ownership.hpp"
 #include "core/coordinator/writer_lease.hpp"
 #include "core/protocol/slot_gate.hpp"
@@ -68,6 +69,7 @@ private:
     ProgramStore programs_;
     BeginSteps begin_steps_;
     JobLifecycle jobs_;
+    TouchWatch touch_watch_;
     Inheritance inheritance_;
     AxisWatch watch_;
     SlotGate gate_;

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lockstep {
 
@@ -30,6 +31,13 @@ constexpr std::string_view name_of(InputUse use) {
     return "program";
 }
 
+/// What the touch of a probe does while the machine moves without a probing move of it.
+enum class TouchInMotion : std::uint8_t {
+    Nothing,
+    Hold,   // the machine comes to rest on its path, as with a hold
+    Fault,  // the same, and the machine is in fault
+};
+
 /// Inputs 0, 1 and 2 of a motor's device have its switches: the limit switches and the home switch. A board has none.
 inline constexpr int kSwitchInputs = 3;
 
@@ -43,12 +51,13 @@ struct InputConfig {
     double debounce_ms = 1;                        // for how long the pin must keep its level until the input follows
     std::optional<int> number;                     // under which programs know it: Program, Probe
     double max_overshoot_mm = kUsualOvershoot_mm;  // how far a move may go on behind the touch: Probe, Home
+    TouchInMotion at_touch_in_motion = TouchInMotion::Nothing;  // Probe
 
     static constexpr double kUsualOvershoot_mm = 1;
     bool operator==(const InputConfig&) const = default;
 };
 
-/// The input of this use that programs know by this number; null if there is none.
+/// The first input of this use that programs know by this number; null if there is none.
 inline const InputConfig* input_numbered(std::span<const InputConfig> inputs, InputUse use, int number) {
     for (const InputConfig& input : inputs) {
         if (input.use == use && input.number == number) { return &input; }
@@ -56,16 +65,31 @@ inline const InputConfig* input_numbered(std::span<const InputConfig> inputs, In
     return nullptr;
 }
 
+/// Whether the inputs are of several probes, so that a program must choose one of them by its number.
+inline bool has_several_probes(std::span<const InputConfig> inputs) {
+    std::optional<int> first;
+    for (const InputConfig& input : inputs) {
+        if (input.use != InputUse::Probe) { continue; }
+        if (first && input.number != first) { return true; }
+        first = input.number;
+    }
+    return false;
+}
+
 /// Programs of the coordinator name a switch as a probe of this number, by its place in the machine's file. Programs of
 /// clients name probes by lower ones.
 inline constexpr int kFirstHomeInput = 1000;
 constexpr int number_of_home_input(std::size_t input) { return kFirstHomeInput + static_cast<int>(input); }
 
-/// The input of a Probe with this number; null if there is none.
-inline const InputConfig* touch_input_numbered(std::span<const InputConfig> inputs, int number) {
-    if (number < kFirstHomeInput) { return input_numbered(inputs, InputUse::Probe, number); }
-    const auto place = static_cast<std::size_t>(number - kFirstHomeInput);
-    return place < inputs.size() && inputs[place].use == InputUse::Home ? &inputs[place] : nullptr;
+/// The inputs of a Probe with this number, in the order of the machine's file.
+inline std::vector<const InputConfig*> inputs_of_probe(std::span<const InputConfig> inputs, int number) {
+    std::vector<const InputConfig*> found;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const bool is_probe = inputs[i].use == InputUse::Probe && inputs[i].number == number;
+        const bool is_switch = inputs[i].use == InputUse::Home && number == number_of_home_input(i);
+        if (is_probe || is_switch) { found.push_back(&inputs[i]); }
+    }
+    return found;
 }
 
 }  // namespace lockstep

@@ -23,6 +23,7 @@ std::optional<FlightKind> kind_of(CoordinatorNotice::Kind kind) {
         case Kind::UnattendedRunsOn:
         case Kind::UnattendedHeld:
         case Kind::DoorOpen:
+        case Kind::TouchInMotion:
         case Kind::ProgramLate:
         case Kind::ProgramCut: return std::nullopt;
     }

@@ -21,16 +21,15 @@ std::string probes_text(std::span<const InputConfig> inputs) {
 /// Without a number, the only probe. Null with an error.
 const InputConfig* ProgramBuilder::probe_numbered(std::optional<int> number) {
     const std::vector<InputConfig>& inputs = setup_.inputs;
-    const auto count = std::ranges::count(inputs, InputUse::Probe, &InputConfig::use);
-    if (count == 0) {
+    const auto only = std::ranges::find(inputs, InputUse::Probe, &InputConfig::use);
+    if (only == inputs.end()) {
         fail("a probing move needs a probe; write input { use: PROBE } in the machine's file");
         return nullptr;
     }
-    if (!number && count > 1) {
+    if (!number && has_several_probes(inputs)) {
         fail("the machine has several probes; choose one: " + probes_text(inputs));
         return nullptr;
     }
-    const auto only = std::ranges::find(inputs, InputUse::Probe, &InputConfig::use);
     const InputConfig* const input = number ? input_numbered(inputs, InputUse::Probe, *number) : &*only;
     if (input == nullptr) {
         fail("probe " + std::to_string(*number) + " is not configured; the machine has " + probes_text(inputs));

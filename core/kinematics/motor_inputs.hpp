@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/faults.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep {
@@ -19,6 +20,12 @@ std::string label_of(const InputConfig& input);
 
 /// The same for all inputs of the motor with this use: "input stop of motor X or input gate of motor X".
 std::string labels_of(const MachineConfig& machine, std::string_view motor, InputUse use);
+
+/// The use of the inputs that cause this fault of a motor; nullopt: no input causes it.
+constexpr std::optional<InputUse> use_of_inputs_in(FaultCode fault) {
+    if (fault == FaultCode::EmergencyStopInput) { return InputUse::EmergencyStop; }
+    return fault == FaultCode::TouchInMotion ? std::optional(InputUse::Probe) : std::nullopt;
+}
 
 /// Where the machine's inputs are: each by the number of its motor, in the order of the machine's file.
 class MotorInputs {

@@ -68,15 +68,27 @@ struct MotorOutputs {
     bool operator==(const MotorOutputs&) const = default;
 };
 
-/// The input whose change ends an epoch of frames: the touch of a probe.
+/// An input of a probe.
 struct TouchInput {
     std::uint32_t motor = 0;   // whose device has it
     std::uint8_t channel = 0;  // of the device
-    bool opens = false;        // it touches when it opens
     bool operator==(const TouchInput&) const = default;
 
     /// `closed`: the closed inputs of the device; input n is bit n.
-    bool is_touched(std::uint32_t closed) const { return ((closed >> channel & 1) != 0) != opens; }
+    bool is_closed(std::uint32_t closed) const { return (closed >> channel & 1) != 0; }
+};
+
+inline constexpr std::size_t kMaxTouchInputs = 8;  // of one probe
+
+/// The inputs whose change ends an epoch of frames. The first touch of any of them counts.
+struct TouchInputs {
+    StaticVector<TouchInput, kMaxTouchInputs> any_of;  // empty: the epoch ends at no touch
+    bool opens = false;                                // they touch when they open
+    bool operator==(const TouchInputs&) const = default;
+
+    bool empty() const { return any_of.empty(); }
+    /// `closed`: as in TouchInput.
+    bool is_touched(const TouchInput& input, std::uint32_t closed) const { return input.is_closed(closed) != opens; }
 };
 
 /// The touch that ended an epoch.
@@ -93,8 +105,8 @@ struct Frame {
     FrameNumber number = 0;
     Tick start;
     Ticks ticks;
-    bool last = false;                // the epoch ends with this frame, at rest; the tail is empty
-    std::optional<TouchInput> touch;  // the epoch also ends at this input's touch
+    bool last = false;  // the epoch ends with this frame, at rest; the tail is empty
+    TouchInputs touch;  // the epoch also ends at a touch of these
     std::vector<AxisTrack> axes;
     std::vector<MotorOutputs> outputs;  // of the motors whose devices have outputs, in order
     bool operator==(const Frame&) const = default;

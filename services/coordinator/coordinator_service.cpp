@@ -192,9 +192,16 @@ private:
     }
 
     std::string cause_of(const CoordinatorNotice& fault, const FaultText& text) const {
-        if (fault.fault != FaultCode::EmergencyStopInput) { return std::string(text.cause); }
-        const std::string& motor = motor_name(machine_, fault.number);
-        return std::string(text.cause) + ": " + labels_of(machine_, motor, InputUse::EmergencyStop);
+        const auto use = use_of_inputs_in(fault.fault);
+        if (!use) { return std::string(text.cause); }
+        return std::string(text.cause) + ": " + labels_of(machine_, motor_name(machine_, fault.number), *use);
+    }
+
+    std::string touch_text(std::uint64_t input) const {
+        const bool is_held = machine_.inputs[input].at_touch_in_motion == TouchInMotion::Hold;
+        return lockstep::label_of(machine_.inputs[input]) +
+               " touched while the machine moved without a probing move; it comes to rest" +
+               (is_held ? "; find out what it touched, then: lockstep resume, or lockstep stop" : "");
     }
 
     std::string remedy_of(const CoordinatorNotice& fault, const FaultText& text) const {
@@ -243,6 +250,7 @@ private:
             case Kind::DoorOpen:
                 return log_warning("a door opened in motion: " + lockstep::label_of(machine_.inputs[notice.number]) +
                                    " is closed; the machine comes to rest; close the door, then: lockstep resume");
+            case Kind::TouchInMotion: return log_warning(touch_text(notice.number));
             case Kind::EpochBegun: return log_info("epoch {} begun", notice.number);
             case Kind::Interrupted:
                 return log_event(

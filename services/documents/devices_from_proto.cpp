@@ -96,6 +96,14 @@ InputUse read_use(proto::InputUse use) {
     }
 }
 
+TouchInMotion read_touch_in_motion(proto::TouchInMotion asked) {
+    switch (asked) {
+        case proto::HOLD: return TouchInMotion::Hold;
+        case proto::FAULT: return TouchInMotion::Fault;
+        default: return TouchInMotion::Nothing;
+    }
+}
+
 InputConfig read_input(const proto::Input& message, const std::string& place, ProtoReader reader) {
     InputConfig input;
     reader.require(message.has_name(), message.name(), input.name, place + ".name");
@@ -112,6 +120,12 @@ InputConfig read_input(const proto::Input& message, const std::string& place, Pr
     if (input.use == InputUse::Probe) { input.number = 0; }
     if (message.has_number()) { input.number = message.number(); }
     if (message.has_max_overshoot_mm()) { input.max_overshoot_mm = message.max_overshoot_mm(); }
+    input.at_touch_in_motion = read_touch_in_motion(message.at_touch_in_motion());
+    if (!proto::TouchInMotion_IsValid(message.at_touch_in_motion())) {
+        const std::string key = place + ".at_touch_in_motion";
+        reader.refuse(
+            key, fmt::format("{} is {}; it must be NOTHING, HOLD or FAULT", key, int{message.at_touch_in_motion()}));
+    }
     return input;
 }
 

@@ -211,6 +211,9 @@ void write_input(const InputConfig& input, proto::Input& message) {
     if (input.number) { message.set_number(*input.number); }
     const bool ends_moves = input.use == InputUse::Probe || input.use == InputUse::Home;
     if (ends_moves) { message.set_max_overshoot_mm(input.max_overshoot_mm); }
+    constexpr std::array kTouches{proto::NOTHING, proto::HOLD, proto::FAULT};
+    const TouchInMotion touch = input.at_touch_in_motion;
+    if (touch != TouchInMotion::Nothing) { message.set_at_touch_in_motion(kTouches[static_cast<std::size_t>(touch)]); }
 }
 
 void write_axis(const AxisConfig& axis, proto::Axis& message) {

@@ -8,6 +8,7 @@
 #include "clients/lockstep/job/job_watch.hpp"
 #include "clients/session/control/lease_turn.hpp"
 #include "clients/session/control/probe_touch.hpp"
+#include "clients/session/inputs/input_report.hpp"
 #include "clients/session/record_loss.hpp"
 #include "clients/session/refusal.hpp"
 #include "clients/session/reports.hpp"
@@ -198,6 +199,7 @@ ExitCode end(Session& session, const Job& job, JobResult result, JobWatch& watch
     const MachineState& state = session.state()->state;
     if (result == JobResult::Stopped && state.job_fault != FaultCode::None) {
         *report.mutable_fault() = fault_report(state.job_fault, "");
+        name_closed_probes(status_report(session), *report.mutable_fault());
         if (state.line) { report.set_line(*state.line); }
     }
     if (result == JobResult::CutShort && state.line) { report.set_line(*state.line); }

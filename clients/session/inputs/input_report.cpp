@@ -28,9 +28,20 @@ void add_inputs(const MachineConfig& machine, const ClosedInputs& closed_of, pro
     }
 }
 
-void name_stop_inputs(const MachineConfig& machine, std::size_t motor, proto::FaultReport& fault) {
-    if (fault.number() != static_cast<std::uint32_t>(FaultCode::EmergencyStopInput)) { return; }
-    fault.set_cause(fault.cause() + ": " + labels_of(machine, motor_name(machine, motor), InputUse::EmergencyStop));
+void name_inputs(const MachineConfig& machine, std::size_t motor, proto::FaultReport& fault) {
+    const auto use = use_of_inputs_in(static_cast<FaultCode>(fault.number()));
+    if (!use) { return; }
+    fault.set_cause(fault.cause() + ": " + labels_of(machine, motor_name(machine, motor), *use));
+}
+
+void name_closed_probes(const proto::StatusReport& status, proto::FaultReport& fault) {
+    if (fault.number() != static_cast<std::uint32_t>(FaultCode::ProbeTouchedEarly)) { return; }
+    std::string names;
+    for (const proto::InputStatus& input : status.inputs()) {
+        if (input.use() != name_of(InputUse::Probe) || !input.closed()) { continue; }
+        names += (names.empty() ? "" : ", ") + label_of(input);
+    }
+    if (!names.empty()) { fault.set_cause(fault.cause() + "; closed now: " + names); }
 }
 
 std::string closed_inputs_text(const proto::StatusReport& status) {

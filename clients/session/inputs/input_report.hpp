@@ -17,8 +17,11 @@ using ClosedInputs = std::function<std::optional<std::uint32_t>(std::size_t moto
 /// Adds the inputs in the order of the machine's file.
 void add_inputs(const MachineConfig& machine, const ClosedInputs& closed_of, proto::StatusReport& report);
 
-/// Names the emergency stop inputs of the motor in a fault that they caused.
-void name_stop_inputs(const MachineConfig& machine, std::size_t motor, proto::FaultReport& fault);
+/// Names the motor's inputs in a fault that they caused.
+void name_inputs(const MachineConfig& machine, std::size_t motor, proto::FaultReport& fault);
+
+/// Names the inputs of probes that are closed now, in the fault of a probing move that could not begin because of them.
+void name_closed_probes(const proto::StatusReport& status, proto::FaultReport& fault);
 
 /// "stop (emergency stop), door (door open)": those that are closed.
 std::string closed_inputs_text(const proto::StatusReport& status);

@@ -14,9 +14,9 @@ namespace lockstep::verification {
 /// The start of an epoch.
 struct EpochStart {
     OwnedSource source;
-    PathPlace place;                  // on the program
-    MotorPositions at;                // of each axis, exactly
-    std::optional<TouchInput> touch;  // it ends at this input's touch
+    PathPlace place;    // on the program
+    MotorPositions at;  // of each axis, exactly
+    TouchInputs touch;  // it ends at a touch of these
 };
 
 /// How far an axis came in an epoch: frames begun, and where it rests.

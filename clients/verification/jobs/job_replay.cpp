@@ -40,10 +40,10 @@ std::optional<EpochStart> JobReplay::next() {
     return std::nullopt;
 }
 
-std::optional<TouchInput> JobReplay::touch_of(const Leg& leg) const {
+TouchInputs JobReplay::touch_of(const Leg& leg) const {
     const Block* const before = leg.first > 0 ? program_->block(leg.first - 1) : nullptr;
     const auto* const probe = before != nullptr ? std::get_if<Probe>(&before->action) : nullptr;
-    return probe != nullptr ? planner_.touch_input(*probe) : std::nullopt;
+    return probe != nullptr ? planner_.touch_inputs(*probe) : TouchInputs{};
 }
 
 std::uint32_t JobReplay::moves_from() const {

@@ -45,7 +45,7 @@ public:
 private:
     static std::int32_t line_of(const Block* block) { return block != nullptr ? block->line.value_or(0) : 0; }
     JobReplay(const MachineConfig& machine, SharedProgram program, std::vector<Leg> legs);
-    std::optional<TouchInput> touch_of(const Leg& leg) const;
+    TouchInputs touch_of(const Leg& leg) const;
 
     MachineConfig machine_;
     Kinematics kinematics_;

@@ -1,5 +1,6 @@
 #include "core/axis/following/epoch_following.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/check.hpp"
@@ -10,6 +11,19 @@ namespace {
 
 /// With room for the pieces that fitting it to the device's clock adds.
 std::size_t room_for(const AxisTrack& track) { return ring_entries(track) + kDevicePieces; }
+
+/// Whether one of these inputs touches that the axis's device has. `closed`: its closed inputs.
+bool touches(const TouchInputs& touch, std::size_t axis, std::uint32_t closed) {
+    return std::ranges::any_of(
+        touch.any_of, [&](const TouchInput& input) { return input.motor == axis && touch.is_touched(input, closed); });
+}
+
+/// Whether the change of an input of the axis's device is a touch of one of these.
+bool is_touch(const TouchInputs& touch, std::size_t axis, const InputEdge& edge) {
+    const bool is_awaited = std::ranges::any_of(
+        touch.any_of, [&](const TouchInput& input) { return input.motor == axis && input.channel == edge.channel; });
+    return is_awaited && edge.closed != touch.opens;
+}
 
 }  // namespace
 
@@ -45,26 +59,20 @@ void EpochFollowing::begin(Epoch epoch, AxisLoop& loop) {
     ran_ = 0;
     touch_.reset();
     loop.notice({AxisNotice::Kind::EpochBegun, FaultCode::None, epoch});
-    const TouchInput* const input = awaited();
-    if (input != nullptr && input->is_touched(loop.device.status().inputs)) { end_at(loop.device.status().now, loop); }
-}
-
-/// The input of this device at whose touch the newest epoch ends, unless it has touched; null if there is none.
-const TouchInput* EpochFollowing::awaited() const {
-    const auto& input = follower_.touch();
-    return !touch_ && input && input->motor == axis_ ? &*input : nullptr;
+    if (touches(follower_.touch(), axis_, loop.device.status().inputs)) { end_at(loop.device.status().now, loop); }
 }
 
 /// An input follows its pin with a delay, so a touch may become known when the axis rests already.
 void EpochFollowing::take(std::span<const InputEdge> edges, AxisLoop& loop) {
     for (const InputEdge& edge : edges) {
-        const TouchInput* const input = awaited();
-        if (input == nullptr || (!is_open() && edge.tick > rested_)) { return; }
-        if (edge.channel == input->channel && edge.closed != input->opens) { end_at(edge.tick, loop); }
+        if (!is_open() && edge.tick > rested_) { return; }
+        if (is_touch(follower_.touch(), axis_, edge)) { end_at(edge.tick, loop); }
     }
 }
 
+/// Later touches are part of the first one.
 void EpochFollowing::end_at(Tick touch, AxisLoop& loop) {
+    if (touch_ && touch_->tick <= touch) { return; }
     touch_ = EpochTouch{follower_.epoch(), touch};
     loop.notice({AxisNotice::Kind::Touched, FaultCode::None, static_cast<std::uint64_t>(touch.value)});
     follower_.veto_for_touch(loop.next_state);

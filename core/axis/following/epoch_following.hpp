@@ -33,7 +33,8 @@ public:
 
     /// Takes the changes of the device's inputs since the last loop. The epoch in progress may end at one.
     void take(std::span<const InputEdge> edges, AxisLoop& loop);
-    /// The touch at which the newest epoch ends, if an input of this device has touched.
+    /// The first touch of an input of this device at which the newest epoch ends. An input with a longer debounce may
+    /// report an earlier touch later.
     const std::optional<EpochTouch>& touch() const { return touch_; }
 
     /// Makes the checks that are due.
@@ -51,7 +52,6 @@ private:
     bool is_left_behind(const DeviceStatus& device) const;
     void begin(Epoch epoch, AxisLoop& loop);
     void refuse(const Frame& frame, FaultCode why, AxisLoop& loop);
-    const TouchInput* awaited() const;
     void end_at(Tick touch, AxisLoop& loop);
 
     std::size_t axis_;

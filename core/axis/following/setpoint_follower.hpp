@@ -43,8 +43,8 @@ public:
     /// Call it when an input of this axis's device has touched. Vetoes the first frame that no axis can have armed,
     /// because every axis needs the state published in slot `next`, or a later one, as evidence for it.
     void veto_for_touch(Slot next);
-    /// The input whose touch ends the epoch, if it ends at one.
-    const std::optional<TouchInput>& touch() const { return touch_; }
+    /// The inputs at whose touch the newest epoch ends.
+    const TouchInputs& touch() const { return touch_; }
 
     /// Call it when the device has ended the run of this epoch. Nothing more of the epoch is held or checked.
     void close() { open_ = false; }
@@ -86,7 +86,7 @@ private:
     Epoch named_ = 0;  // epoch that the owner's newest state names
     FrameNumber held_ = 0;
     FrameNumber checked_ = 0;  // every frame up to this one is decided
-    std::optional<TouchInput> touch_;
+    TouchInputs touch_;
     std::optional<FrameNumber> veto_;
     FailedCheck failed_check_;
     std::optional<FrameNumber> device_veto_;  // the veto that was given to the device

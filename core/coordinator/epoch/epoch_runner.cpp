@@ -25,7 +25,7 @@ EpochRunner::EpochRunner(const MachineConfig& machine)
       in_flight_(machine.timing, machine.slot_ticks()) {}
 
 void EpochRunner::begin(Epoch epoch, const PathPlace& place, const MotorPositions& at, const Overrides& overrides,
-                        const SwitchedBy& switched, const std::optional<TouchInput>& touch) {
+                        const SwitchedBy& switched, const TouchInputs& touch) {
     epoch_ = epoch;
     touch_ = touch;
     history_.begin(at);
@@ -92,7 +92,7 @@ const Frame* EpochRunner::make_frame() {
     frame.axes = path.axes;
     if (frame.number == 1) { outputs_.begin(devices_at(begin_.place.block, switched_, *source_)); }
     outputs_.plan(path, {source_->events(), source_->tail_events()}, frame.outputs);
-    if (touch_) { history_.add(frame); }
+    if (!touch_.empty()) { history_.add(frame); }
     if (path.last) { end(Ending::Whole); }
     due_.add(frame, source_->events());
     made_.add(frame, path, outputs_.has_pulses());
@@ -113,10 +113,13 @@ void EpochRunner::stop(Slot next) {
 }
 
 std::optional<Tick> EpochRunner::touched(std::span<const AxisView> axes) const {
-    if (!touch_) { return std::nullopt; }
-    const auto& state = axes[touch_->motor].state;
-    const bool is_of_this = state && state->touch && state->touch->epoch == epoch_;
-    return is_of_this ? std::optional(state->touch->tick) : std::nullopt;
+    std::optional<Tick> first;
+    for (const TouchInput& input : touch_.any_of) {
+        const auto& state = axes[input.motor].state;
+        if (!state || !state->touch || state->touch->epoch != epoch_) { continue; }
+        first = std::min(first.value_or(state->touch->tick), state->touch->tick);
+    }
+    return first;
 }
 
 std::optional<EpochEnd> EpochRunner::evaluate(Slot now, std::span<const AxisView> axes) const {

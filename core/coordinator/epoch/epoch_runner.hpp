@@ -35,9 +35,9 @@ public:
     /// Sets what the epochs to come run.
     void load(OwnedSource source) { source_ = std::move(source); }
     /// The epoch starts when its first frame can be made, as soon as the send-ahead allows. `at` is where each axis
-    /// rests, exactly. `touch`: the epoch also ends at the touch of this input.
+    /// rests, exactly. `touch`: the epoch also ends at a touch of these inputs.
     void begin(Epoch epoch, const PathPlace& place, const MotorPositions& at, const Overrides& overrides,
-               const SwitchedBy& switched, const std::optional<TouchInput>& touch = {});
+               const SwitchedBy& switched, const TouchInputs& touch = {});
 
     /// Returns the frames to send in this slot: new frames that are due, until an axis vetoes one, and frames that an
     /// axis lacks. The frames are valid until the next call. The caller fills in their term.
@@ -53,9 +53,9 @@ public:
     /// Returns nullopt while an axis may still move. Axes that are not present are left out.
     std::optional<EpochEnd> evaluate(Slot now, std::span<const AxisView> axes) const;
 
-    /// When the input of the epoch touched, if an axis reports it.
+    /// When an input of the epoch touched first, by what the axes report so far.
     std::optional<Tick> touched(std::span<const AxisView> axes) const;
-    const std::optional<TouchInput>& touch() const { return touch_; }
+    const TouchInputs& touch() const { return touch_; }
     /// Where the motors were at this tick, in an epoch with a touch of which frame `ran` was the last one run.
     MotorPositions positions_at(Tick tick, FrameNumber ran) const { return history_.at(tick, ran); }
 
@@ -113,7 +113,7 @@ private:
     std::optional<Ending> ending_;
     bool lacked_blocks_ = false;  // when the frame that is due was tried last
     DueEvents due_;
-    std::optional<TouchInput> touch_;
+    TouchInputs touch_;
     FrameHistory history_;  // of an epoch with a touch
 };
 

@@ -31,7 +31,7 @@ MotorConfig as_motor(const AxisConfig& axis, double overshoot_mm) {
 
 TouchInput switch_at(const InputConfig& input, const MachineConfig& machine) {
     return {static_cast<std::uint32_t>(motor_named(machine, input.motor).value()),
-            static_cast<std::uint8_t>(input.channel), false};
+            static_cast<std::uint8_t>(input.channel)};
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ TouchHoming::TouchHoming(std::size_t axis, const MachineConfig& machine)
       homing_(as_motor(config_, machine.inputs[input_].max_overshoot_mm)) {}
 
 bool TouchHoming::is_closed(const LoopView& loop) const {
-    return switch_.is_touched(loop.axes.state(switch_.motor)->inputs);
+    return switch_.is_closed(loop.axes.state(switch_.motor)->inputs);
 }
 
 bool TouchHoming::is_switch_known(const LoopView& loop) const {

@@ -44,6 +44,17 @@ void settle_complete(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop
     jobs.follow(std::move(path.task), next, std::move(path.pause), loop);
 }
 
+/// After a touch, the job's line tells where the tool has met something.
+void fail_on_path(const activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    const MachineFault fault = path.fault;
+    const Block* const block = path.task.job.program->block(end.place.block);
+    const auto line = block != nullptr ? block->line : std::nullopt;
+    jobs.fail_at_rest(fault, loop);
+    if (fault.code != FaultCode::TouchInMotion) { return; }
+    jobs.count().cut(line, fault.code);
+    jobs.count().end(JobOutcome::Failed);
+}
+
 /// Called when every axis is at rest after an epoch.
 void settle(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, CoordinatorLoop& loop) {
     const bool rests_on_path = end.kind == EpochEnd::Kind::Interrupted || end.kind == EpochEnd::Kind::Complete;
@@ -51,7 +62,7 @@ void settle(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, Coo
     const auto probed = may_end ? jobs.path().end_probe(path.task, end, loop) : std::nullopt;
     loop.out.epoch_end = {end.kind, probed ? Intent::Stop : path.intent};
     jobs.path().end_epoch(path.task, end, loop, loop.out.events);
-    if (path.intent == Intent::Abort) { return jobs.fail_at_rest(path.fault, loop); }
+    if (path.intent == Intent::Abort) { return fail_on_path(path, end, jobs, loop); }
     if (probed) { return jobs.follow(std::move(path.task), *probed, {}, loop); }
     const bool is_held_return = path.intent == Intent::Hold && path.pause;
     const bool ends = path.intent == Intent::Stop || is_held_return;
@@ -99,7 +110,7 @@ void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& l
         if (next && is_free) { (void)commands::begin_path_jog(*next, renewed, jobs, loop); }
         return;
     }
-    if (!jobs.path().runner().is_overdue()) { return; }
+    if (!jobs.path().is_overdue()) { return; }
     const auto homing = path.homing;
     // The fault names an axis that does not come to rest.
     jobs.fail({FaultCode::NotAtRest, loop.axes.moving(loop.slot).value_or(0)}, loop);

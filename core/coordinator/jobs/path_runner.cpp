@@ -81,9 +81,9 @@ void PathRunner::pass_events(const PathTask& task, const LegEnd& end, const Loop
 
 std::optional<Probed> PathRunner::end_probe_at_begin(const PathTask& task, const LoopView& loop) {
     if (!task.probe) { return std::nullopt; }
-    const auto input = planner_.touch_input(*task.probe);
-    check(input.has_value(), "the input of a probe is checked when its program arrives");
-    return probing_.end_at_begin(task, *input, !end_of_empty_leg(task, planner_), loop);
+    const TouchInputs inputs = planner_.touch_inputs(*task.probe);
+    check(!inputs.empty(), "the inputs of a probe are checked when its program arrives");
+    return probing_.end_at_begin(task, inputs, !end_of_empty_leg(task, planner_), loop);
 }
 
 PathNext PathRunner::begin_leg(PathTask& task, const LoopView& loop, std::vector<PublishedEvent>& out) {
@@ -133,7 +133,7 @@ void PathRunner::begin_epoch(PathTask& task, const PathPlace& place, MotorPositi
     const JobKind kind = task.job.kind;
     const bool is_aside = kind == JobKind::Jog || kind == JobKind::Return || kind == JobKind::Home;
     if (is_aside) { switched.devices.pulses = {}; }
-    const auto touch = task.probe ? planner_.touch_input(*task.probe) : std::nullopt;
+    const TouchInputs touch = task.probe ? probing_.awaited() : TouchInputs{};
     runner_.begin(epoch_after(runner_.epoch(), loop), place, at, overrides_, switched, touch);
 }
 

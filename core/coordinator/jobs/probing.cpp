@@ -1,7 +1,10 @@
 #include "core/coordinator/jobs/probing.hpp"
 
+#include <algorithm>
+
 #include "core/check.hpp"
 #include "core/kinematics/motors.hpp"
+#include "core/protocol/rules.hpp"
 
 namespace lockstep {
 namespace {
@@ -12,13 +15,31 @@ MotorPositions positions_of(const LoopView& loop) {
     return at;
 }
 
+/// Those that do not touch by the newest states.
+TouchInputs untouched(const TouchInputs& inputs, const LoopView& loop) {
+    TouchInputs left{.any_of = {}, .opens = inputs.opens};
+    for (const TouchInput& input : inputs.any_of) {
+        const auto& state = loop.axes.state(input.motor);
+        if (!state || !inputs.is_touched(input, state->inputs)) { left.any_of.append(input); }
+    }
+    return left;
+}
+
+/// Within so many slots every change of the probe's inputs is known.
+Slot slots_until_all_known(const Probe& probe, const MachineConfig& machine) {
+    Slot slots = 0;
+    for (const InputConfig* const input : inputs_of_probe(machine.inputs, probe.input)) {
+        slots = std::max(slots, slots_until_known(*input, machine));
+    }
+    return slots;
+}
+
 }  // namespace
 
-std::optional<Probed> Probing::end_at_begin(const PathTask& task, const TouchInput& input, bool moves,
+std::optional<Probed> Probing::end_at_begin(const PathTask& task, const TouchInputs& inputs, bool moves,
                                             const LoopView& loop) {
-    rested_.reset();
-    const auto& state = loop.axes.state(input.motor);
-    const bool touches = state && input.is_touched(state->inputs);
+    awaited_ = untouched(inputs, loop);
+    const bool touches = inputs.opens ? awaited_.empty() : awaited_ != inputs;
     if (!touches && moves) { return std::nullopt; }
     note(task, touches ? std::optional(loop.now) : std::nullopt, positions_of(loop), loop);
     if (!task.probe->must_touch) { return Probed{}; }
@@ -28,18 +49,27 @@ std::optional<Probed> Probing::end_at_begin(const PathTask& task, const TouchInp
 bool Probing::may_touch_yet(const PathTask& task, const EpochEnd& end, const EpochRunner& runner,
                             const LoopView& loop) {
     const bool rests_on_path = end.kind == EpochEnd::Kind::Complete || end.kind == EpochEnd::Kind::Interrupted;
-    const auto& input = runner.touch();
-    if (!input || !rests_on_path || runner.touched(loop.axes.views())) { return false; }
-    rested_ = rested_.value_or(loop.slot);
-    const InputConfig* const config = touch_input_numbered(loop.machine.inputs, task.probe->input);
-    return loop.axes.is_present(input->motor, loop.slot) &&
-           loop.axes.state(input->motor)->stamp < *rested_ + slots_until_known(*config, loop.machine);
+    const bool is_asked = task.probe && !runner.touch().empty() && rests_on_path;
+    rested_ = is_asked ? std::optional(rested_.value_or(loop.slot)) : std::nullopt;
+    if (!is_asked || !lacks_states(*task.probe, runner, loop)) { rested_.reset(); }
+    return waits();
+}
+
+/// A touch before the one that is known, or before the rest, may be of any input whose state is not known since then.
+bool Probing::lacks_states(const Probe& probe, const EpochRunner& runner, const LoopView& loop) const {
+    const auto& inputs = runner.touch().any_of;
+    const auto touched = runner.touched(loop.axes.views());
+    if (touched && inputs.size() == 1) { return false; }
+    const Slot since = touched ? rules::slot_of(*touched, loop.machine.slot_ticks()) : *rested_;
+    const Slot known = since + slots_until_all_known(probe, loop.machine);
+    return std::ranges::any_of(inputs, [&](const TouchInput& input) {
+        return loop.axes.is_present(input.motor, loop.slot) && loop.axes.state(input.motor)->stamp < known;
+    });
 }
 
 std::optional<Probed> Probing::end(const PathTask& task, const EpochEnd& end, const EpochRunner& runner,
                                    const LoopView& loop) {
     const auto touched = runner.touched(loop.axes.views());
-    rested_.reset();
     if (!touched && end.kind != EpochEnd::Kind::Complete) { return std::nullopt; }
     note(task, touched, touched ? runner.positions_at(*touched, end.ran) : end.positions, loop);
     if (!task.probe->must_touch) { return Probed{}; }

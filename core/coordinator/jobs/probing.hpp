@@ -1,4 +1,4 @@
-// Probing moves: the input at whose touch a leg ends, and the place of the touch.
+// Probing moves: the inputs at whose first touch a leg ends, and the place of the touch.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,18 @@ namespace lockstep {
 class Probing {
 public:
     /// Ends a task whose probe touches before its move begins, or whose move moves nothing. Returns nullopt if the move
-    /// can begin. `input`: the probe's.
-    std::optional<Probed> end_at_begin(const PathTask& task, const TouchInput& input, bool moves, const LoopView& loop);
+    /// can begin. `inputs`: the probe's.
+    std::optional<Probed> end_at_begin(const PathTask& task, const TouchInputs& inputs, bool moves,
+                                       const LoopView& loop);
+    /// The inputs at whose touch the newest probing move ends: if at their opening, those that were closed at its
+    /// begin.
+    const TouchInputs& awaited() const { return awaited_; }
 
-    /// An epoch with a touch has come to rest as `end` says, but a touch before that may still become known: an input
-    /// follows its pin with a delay, and the states of its axis come later.
+    /// An epoch with a touch has come to rest as `end` says, but a touch before that, or one before the touch that is
+    /// known, may still become known: an input follows its pin with a delay, and the states of its axis come later.
     bool may_touch_yet(const PathTask& task, const EpochEnd& end, const EpochRunner& runner, const LoopView& loop);
+    /// The epoch rests, and may_touch_yet().
+    bool waits() const { return rested_.has_value(); }
     /// Ends a task whose epoch ended behind a touch, or at the end of its move without one. Returns nullopt if it was
     /// interrupted before.
     std::optional<Probed> end(const PathTask& task, const EpochEnd& end, const EpochRunner& runner,
@@ -26,10 +32,12 @@ public:
     const std::optional<ProbeResult>& result() const { return result_; }
 
 private:
+    bool lacks_states(const Probe& probe, const EpochRunner& runner, const LoopView& loop) const;
     void note(const PathTask& task, std::optional<Tick> touched, const MotorPositions& at, const LoopView& loop);
 
+    TouchInputs awaited_;
     std::optional<ProbeResult> result_;  // of the newest probing move
-    std::optional<Slot> rested_;         // when the epoch in progress was first seen at rest
+    std::optional<Slot> rested_;         // since when the epoch in progress rests and waits
 };
 
 }  // namespace lockstep

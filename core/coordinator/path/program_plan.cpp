@@ -67,11 +67,14 @@ ProgramPlanner::ProgramPlanner(const MachineConfig& machine)
     for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
 }
 
-std::optional<TouchInput> ProgramPlanner::touch_input(const Probe& probe) const {
-    const InputConfig* const found = touch_input_numbered(machine_.inputs, probe.input);
-    const auto motor = found == nullptr ? std::nullopt : motor_named(machine_, found->motor);
-    if (!motor) { return std::nullopt; }
-    return TouchInput{static_cast<std::uint32_t>(*motor), static_cast<std::uint8_t>(found->channel), probe.opens};
+TouchInputs ProgramPlanner::touch_inputs(const Probe& probe) const {
+    TouchInputs touch{.any_of = {}, .opens = probe.opens};
+    for (const InputConfig* const input : inputs_of_probe(machine_.inputs, probe.input)) {
+        const auto motor = motor_named(machine_, input->motor);
+        if (!motor) { continue; }
+        touch.any_of.append({static_cast<std::uint32_t>(*motor), static_cast<std::uint8_t>(input->channel)});
+    }
+    return touch;
 }
 
 std::expected<std::vector<std::size_t>, PlanError> ProgramPlanner::axes_of(

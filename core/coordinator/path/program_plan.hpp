@@ -66,8 +66,8 @@ public:
                                                     const AxisCounts& start) const;
     /// The machine's input of this use that programs know by this number; null if it has none.
     const InputConfig* input(InputUse use, int number) const { return input_numbered(machine_.inputs, use, number); }
-    /// The input of a probe; nullopt if the machine has none of this number.
-    std::optional<TouchInput> touch_input(const Probe& probe) const;
+    /// The inputs of a probe, in the order of the file; none if the machine has none of this number.
+    TouchInputs touch_inputs(const Probe& probe) const;
     std::expected<std::vector<Leg>, PlanError> plan(const Program& program, const AxisCounts& start) const {
         return plan(program.head(), WholeProgram(borrowed(program)), start);
     }

@@ -79,7 +79,7 @@ std::expected<void, PlanError> ProbeCheck::next(const Block& block, const Machin
     if (has_moved_) { return refuse(block, "a program ends with its probing move; send what follows it afterwards"); }
     if (const auto* probe = std::get_if<Probe>(&block.action); probe != nullptr && !probe_) {
         probe_ = *probe;
-        if (touch_input_numbered(machine.inputs, probe->input) != nullptr) { return {}; }
+        if (!inputs_of_probe(machine.inputs, probe->input).empty()) { return {}; }
         return refuse(block, "probe " + std::to_string(probe->input) +
                                  " is not configured on this machine; write input { use: PROBE } with this number in "
                                  "the machine's file");
@@ -90,8 +90,12 @@ std::expected<void, PlanError> ProbeCheck::next(const Block& block, const Machin
         return refuse(block, "behind a probe must be one straight move with a feed");
     }
     has_moved_ = true;
-    const InputConfig& input = *touch_input_numbered(machine.inputs, probe_->input);
-    return check_overshoot(block, *move, machine, input, deceleration_of(*move, machine, axes, from_mm));
+    const double deceleration_mm_s2 = deceleration_of(*move, machine, axes, from_mm);
+    for (const InputConfig* const input : inputs_of_probe(machine.inputs, probe_->input)) {
+        const auto fits = check_overshoot(block, *move, machine, *input, deceleration_mm_s2);
+        if (!fits) { return fits; }
+    }
+    return {};
 }
 
 }  // namespace lockstep

@@ -5,6 +5,7 @@
 
 #include "core/hardware/device_abilities.hpp"
 #include "core/kinematics/motors.hpp"
+#include "core/protocol/messages.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
@@ -43,6 +44,7 @@ private:
         problems_.require_range(at + "debounce_ms", input.debounce_ms, 0, kMaxDebounce_ms);
         check_number(input, before, at + "number");
         check_overshoot(input, at + "max_overshoot_mm");
+        check_touch_in_motion(input, at + "at_touch_in_motion");
         check_owner(machine_, {input.motor, input.at_board}, at, problems_);
         const auto motor = std::ranges::find(motors_, input.motor, &MotorConfig::name);
         if (motor != motors_.end()) { check_channel(input, *motor, before, at + "channel"); }
@@ -73,11 +75,28 @@ private:
                           fmt::format("{} is missing; programs read an input with use: PROGRAM by its number", key));
         if (!input.number) { return; }
         problems_.require_range(key, *input.number, 0, kMaxProgramInput);
-        const auto other = std::ranges::find_if(
-            before, [&](const InputConfig& one) { return one.use == input.use && one.number == input.number; });
+        const auto has_number = [&](const InputConfig& one) {
+            return one.use == input.use && one.number == input.number;
+        };
+        if (is_probe) { return check_probe(input, std::ranges::count_if(before, has_number), key); }
+        const auto other = std::ranges::find_if(before, has_number);
         problems_.require(other == before.end(), key,
                           fmt::format("{} is {}, which input {} has already; choose another", key, *input.number,
                                       other == before.end() ? "" : other->name));
+    }
+
+    /// `before`: so many inputs have the probe's number already.
+    void check_probe(const InputConfig& input, std::ptrdiff_t before, const std::string& key) {
+        constexpr auto kMost = static_cast<std::ptrdiff_t>(kMaxTouchInputs);
+        problems_.require(before < kMost, key,
+                          fmt::format("{} is {}, which {} inputs have already; a probe has at most {}, so choose "
+                                      "another",
+                                      key, *input.number, before, kMost));
+    }
+
+    void check_touch_in_motion(const InputConfig& input, const std::string& key) {
+        problems_.require(input.use == InputUse::Probe || input.at_touch_in_motion == TouchInMotion::Nothing, key,
+                          fmt::format("{} is given, but the input is no probe; remove it, or set use: PROBE", key));
     }
 
     void check_overshoot(const InputConfig& input, const std::string& key) {

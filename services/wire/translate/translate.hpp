@@ -41,6 +41,7 @@ struct SetpointMessage : lockstep_wire_Setpoint {
         std::vector<std::uint64_t> from_phase;
         std::vector<std::uint16_t> body_count, tail_count;
         std::vector<std::int64_t> ticks, velocity, acceleration;
+        std::vector<std::uint8_t> touch_motor, touch_channel;
         std::vector<std::uint8_t> output_motor;
         std::vector<std::uint16_t> output_body_count, output_tail_count;
         std::vector<std::int64_t> output_at;

@@ -191,14 +191,39 @@ void check_shape(const lockstep_wire_Setpoint& wire, Checks& check) {
     check.same("the number of accelerations", wire.acceleration._length, pieces);
 }
 
-std::optional<TouchInput> touch_of(const lockstep_wire_Setpoint& wire) {
-    if (!wire.has_touch) { return std::nullopt; }
-    return TouchInput{wire.touch_motor, wire.touch_channel, wire.touch_opens};
+void check_touch(const lockstep_wire_Setpoint& wire, Checks& check) {
+    check.within<std::size_t>("the number of touch_motor", wire.touch_motor._length, 0, kMaxTouchInputs);
+    check.same("the number of touch_channel", wire.touch_channel._length, wire.touch_motor._length);
+    for (const auto motor : elements(wire.touch_motor)) {
+        check.within<std::size_t>("touch_motor", motor, 0, kMaxAxes - 1);
+    }
+    for (const auto channel : elements(wire.touch_channel)) {
+        check.within<std::size_t>("touch_channel", channel, 0, kMostInputs - 1);
+    }
+}
+
+void read_touch(const lockstep_wire_Setpoint& wire, TouchInputs& touch) {
+    touch.any_of.clear();
+    for (std::size_t i = 0; i < wire.touch_motor._length; ++i) {
+        touch.any_of.append({wire.touch_motor._buffer[i], wire.touch_channel._buffer[i]});
+    }
+    touch.opens = wire.touch_opens;
+}
+
+void write_touch(const TouchInputs& touch, SetpointMessage& message) {
+    SetpointMessage::Storage& storage = message.storage;
+    storage.touch_motor.clear();
+    storage.touch_channel.clear();
+    for (const TouchInput& input : touch.any_of) {
+        storage.touch_motor.push_back(static_cast<std::uint8_t>(input.motor));
+        storage.touch_channel.push_back(input.channel);
+    }
+    show(message.touch_motor, storage.touch_motor);
+    show(message.touch_channel, storage.touch_channel);
+    message.touch_opens = touch.opens;
 }
 
 void check_values(const lockstep_wire_Setpoint& wire, Checks& check) {
-    check.within<std::size_t>("touch_motor", wire.touch_motor, 0, kMaxAxes - 1);
-    check.within<std::size_t>("touch_channel", wire.touch_channel, 0, kMostInputs - 1);
     check.far("start_tick", wire.start_tick);
     check.within<std::int64_t>("frame_ticks", wire.frame_ticks, 1, kMaxWireTicks);
     for (const auto count : elements(wire.from_count)) { check.far("from_count", count); }
@@ -234,11 +259,7 @@ void to_wire(const Frame& frame, SetpointMessage& message) {
     message.start_tick = frame.start.value;
     message.frame_ticks = frame.ticks.value;
     message.last = frame.last;
-    const TouchInput touch = frame.touch.value_or(TouchInput{});
-    message.has_touch = frame.touch.has_value();
-    message.touch_motor = static_cast<std::uint8_t>(touch.motor);
-    message.touch_channel = touch.channel;
-    message.touch_opens = touch.opens;
+    write_touch(frame.touch, message);
     SetpointMessage::Storage& storage = message.storage;
     make_room(storage, frame);
     for (const AxisTrack& axis : frame.axes) { append(storage, axis); }
@@ -269,6 +290,7 @@ FromWire<Frame> from_wire(const lockstep_wire_Setpoint& wire) {
 std::expected<void, std::string> from_wire(const lockstep_wire_Setpoint& wire, Frame& into) {
     Checks check("setpoint");
     check_shape(wire, check);
+    if (check.passed()) { check_touch(wire, check); }
     if (check.passed()) { check_outputs(wire, check); }
     if (check.passed()) { check_values(wire, check); }
     if (!check.passed()) { return std::unexpected(check.refusal()); }
@@ -278,7 +300,7 @@ std::expected<void, std::string> from_wire(const lockstep_wire_Setpoint& wire, F
     into.start = {wire.start_tick};
     into.ticks = {wire.frame_ticks};
     into.last = wire.last;
-    into.touch = touch_of(wire);
+    read_touch(wire, into.touch);
     into.axes.resize(wire.from_count._length);
     std::size_t at = 0;
     for (std::size_t i = 0; i < into.axes.size(); ++i) {

@@ -53,9 +53,8 @@ TEST(Inputs, WrongValuesAreRefusedWithPlaceValueAndRemedy) {
         {with_inputs({kStop + " max_overshoot_mm: 2"}), "is given, but the input is no probe; remove it"},
         {with_inputs({R"(name: "a" motor: "X" channel: 3 use: PROBE max_overshoot_mm: 0)"}),
          "input[0].max_overshoot_mm is 0; it must be from 0.001 to 1000"},
-        {with_inputs(
-             {R"(name: "a" motor: "X" channel: 3 use: PROBE)", R"(name: "b" motor: "X" channel: 4 use: PROBE)"}),
-         "input[1].number is 0, which input a has already; choose another"},
+        {with_inputs({kStop + " at_touch_in_motion: FAULT"}),
+         "input[0].at_touch_in_motion is given, but the input is no probe; remove it, or set use: PROBE"},
         {with_inputs({R"(name: "a" motor: "X" channel: 3 use: PROGRAM)"}), "input[0].number is missing"},
         {with_inputs({R"(name: "a" motor: "X" channel: 3 use: PROGRAM number: 64)"}),
          "input[0].number is 64; it must be from 0 to 63"},
@@ -67,6 +66,26 @@ TEST(Inputs, WrongValuesAreRefusedWithPlaceValueAndRemedy) {
         EXPECT_THAT(found, HasSubstr(message));
         EXPECT_THAT(found, testing::MatchesRegex("m:[0-9]+:[0-9]+: [^\n]*\n?")) << "one error, with its place";
     }
+}
+
+std::string probe_at(const std::string& owner, int channel) {
+    return "name: \"p" + owner.substr(0, 1) + std::to_string(channel) + "\" " + owner +
+           " channel: " + std::to_string(channel) + " use: PROBE at_touch_in_motion: HOLD";
+}
+
+TEST(Inputs, UpToEightOfOneProbeHaveTheSameNumber) {
+    const std::string motor = R"(motor: "X")", board = R"(board: "IO")";
+    const std::string eight =
+        with_inputs({probe_at(motor, 3), probe_at(motor, 4), probe_at(motor, 5), probe_at(motor, 6), probe_at(board, 0),
+                     probe_at(board, 1), probe_at(board, 2), probe_at(board, 3)}) +
+        "board { name: \"IO\" }\n";
+    const auto machine = parse_machine(eight);
+    ASSERT_TRUE(machine) << to_text("m", machine.error());
+    EXPECT_EQ(inputs_of_probe(machine->inputs, 0).size(), 8u);
+    EXPECT_EQ(machine->inputs.front().at_touch_in_motion, TouchInMotion::Hold);
+    EXPECT_EQ(machine_text(parse_machine(machine_text(*machine)).value()), machine_text(*machine));
+    EXPECT_THAT(error_of(eight + "input { " + probe_at(board, 4) + " }\n"),
+                HasSubstr("input[8].number is 0, which 8 inputs have already; a probe has at most 8"));
 }
 
 /// The same machine, whose axis homes by this homing block.

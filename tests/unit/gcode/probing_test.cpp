@@ -163,6 +163,12 @@ TEST(ProbingWords, ChooseTheProbe) {
     EXPECT_EQ(probing_error("G38.2 Z10 F60 P5\n", with_two_probes()), "none");
 }
 
+TEST(ProbingWords, NeedNoNumberIfAllInputsAreOfOneProbe) {
+    GcodeSetup setup = with_two_probes();
+    setup.inputs.back().number = setup.inputs.front().number;
+    EXPECT_EQ(probing_error("G38.2 Z10 F60\n", setup), "none");
+}
+
 TEST(ProbingWords, WorkLineByLine) {
     MachineConfig machine{.name = "mill"};
     for (const char* name : {"X", "Y", "Z"}) { machine.axes.push_back({.name = name, .steps_per_mm = 100}); }

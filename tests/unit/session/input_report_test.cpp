@@ -55,6 +55,26 @@ TEST(MachineFault, NamesTheInputOfAnEmergencyStop) {
     EXPECT_THAT(fault->remedy(), HasSubstr("release the emergency stop"));
 }
 
+TEST(MachineFault, NamesTheInputOfATouchInMotion) {
+    MachineConfig machine = with_inputs();
+    machine.inputs.push_back({.name = "tip", .motor = "X", .channel = 6, .use = InputUse::Probe, .number = 0});
+    const auto fault = fault_of({.fault = FaultCode::TouchInMotion, .fault_axis = 0}, machine);
+    EXPECT_THAT(fault->cause(), HasSubstr(": input tip of motor X"));
+    EXPECT_THAT(fault->remedy(), HasSubstr("lockstep reset"));
+}
+
+TEST(InputReport, NamesTheInputBecauseOfWhichAProbingMoveCouldNotBegin) {
+    MachineConfig machine = with_inputs();
+    machine.inputs.push_back({.name = "tip", .motor = "X", .channel = 6, .use = InputUse::Probe, .number = 0});
+    machine.inputs.push_back({.name = "ring", .motor = "Y", .channel = 6, .use = InputUse::Probe, .number = 0});
+    proto::StatusReport status;
+    const auto closed_of = [](std::size_t motor) { return std::optional<std::uint32_t>(motor == 1 ? 1U << 6 : 0); };
+    add_inputs(machine, closed_of, status);
+    proto::FaultReport early = fault_report(FaultCode::ProbeTouchedEarly, "");
+    name_closed_probes(status, early);
+    EXPECT_THAT(early.cause(), HasSubstr("; closed now: input ring of motor Y"));
+}
+
 TEST(InputReport, SaysHowLongAJobMayStillWaitForAnInput) {
     proto::StatusReport status;
     status.mutable_pause()->set_text("waits for an input: until clamp is closed");

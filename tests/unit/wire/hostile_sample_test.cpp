@@ -28,7 +28,10 @@ void expect_refused(const Wire& wire, const std::string& field) {
 /// Two axes: bodies of two pieces and one, tails of one.
 Frame good_frame() {
     const Piece piece{{100}, {1000}, {-10}};
-    return {.number = 1, .ticks = {200}, .axes = {{{}, {piece, piece}, {piece}}, {{}, {piece}, {piece}}}};
+    return {.number = 1,
+            .ticks = {200},
+            .touch = {.any_of = {{0, 3}, {1, 3}}},
+            .axes = {{{}, {piece, piece}, {piece}}, {{}, {piece}, {piece}}}};
 }
 
 /// Expects that good_frame() is refused after `lie` has altered its message.
@@ -52,6 +55,8 @@ TEST(HostileFrame, WrongCountsAreRefused) {
     expect_frame_refused("number of ticks", [](auto& m) { m.ticks._length = 4; });
     expect_frame_refused("number of velocities", [](auto& m) { m.velocity._length = 4; });
     expect_frame_refused("number of accelerations", [](auto& m) { m.acceleration._length = 4; });
+    expect_frame_refused("number of touch_motor", [](auto& m) { m.touch_motor._length = kMaxTouchInputs + 1; });
+    expect_frame_refused("number of touch_channel", [](auto& m) { m.touch_channel._length = 1; });
 }
 
 TEST(HostileFrame, NumbersThatWouldOverflowAreRefused) {
@@ -65,6 +70,8 @@ TEST(HostileFrame, NumbersThatWouldOverflowAreRefused) {
     expect_frame_refused("ticks", [](auto& m) { m.storage.ticks[4] = kMax; });
     expect_frame_refused("velocity", [](auto& m) { m.storage.velocity[2] = kMin; });
     expect_frame_refused("acceleration", [](auto& m) { m.storage.acceleration[2] = kMin; });
+    expect_frame_refused("touch_motor", [](auto& m) { m.storage.touch_motor[1] = kMaxAxes; });
+    expect_frame_refused("touch_channel", [](auto& m) { m.storage.touch_channel[0] = kMostInputs; });
 }
 
 /// Any bytes may overwrite a message. The translation refuses it, or its result is within bounds.

@@ -15,6 +15,10 @@ Frame RandomMessages::frame() {
         for (std::uint32_t n = index(kMaxBodyPieces + 1); n > 0; --n) { (void)axis.body.push_back(piece()); }
         for (std::uint32_t n = index(kMaxTailPieces + 1); n > 0; --n) { (void)axis.tail.push_back(piece()); }
     }
+    frame.touch.opens = coin();
+    for (std::uint32_t n = index(kMaxTouchInputs + 1); n > 0; --n) {
+        frame.touch.any_of.append({index(kMaxAxes), static_cast<std::uint8_t>(index(kMostInputs))});
+    }
     return frame;
 }
 

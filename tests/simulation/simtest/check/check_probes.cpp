@@ -31,15 +31,19 @@ public:
     }
 
 private:
-    /// By how much the times of two motors may differ.
-    Ticks error_between(std::size_t a, std::size_t b) const {
-        const Tick at = probe_.result.tick;
-        return recording_.motors[a].bound_at(at) + recording_.motors[b].bound_at(at);
+    /// The bound of the error of a motor's time at the touch.
+    Ticks error_of(std::size_t motor) const { return recording_.motors[motor].bound_at(probe_.result.tick); }
+
+    /// The greatest such bound of the motors whose devices have touched.
+    Ticks error_of_touches() const {
+        Ticks error;
+        for (const TouchRecord& touch : probe_.touches) { error = std::max(error, error_of(touch.motor)); }
+        return error;
     }
 
     /// Some place that the motor had at the touch, within the error of the clocks, is the reported one.
     void check_place(std::size_t m) {
-        const Ticks error = error_between(m, probe_.motor);
+        const Ticks error = error_of(m) + error_of_touches();
         std::int64_t count = probe_.from[m];
         std::int64_t least = count, most = count;
         for (const StepEdge& step : recording_.steps_of(job_, m)) {
@@ -61,12 +65,14 @@ private:
                                    std::to_string(least) + " to " + std::to_string(most)});
     }
 
-    /// A device that stood still when its probe touched sees the touch later, or as if it had been earlier.
+    /// A device that stood still when its input touched sees the touch later, or as if it had been earlier.
     bool is_device_at_fault() const {
         return std::ranges::any_of(recording_.faults, [&](const VirtualFault& fault) {
-            const bool is_then = probe_.pressed && fault.at <= *probe_.pressed + probe_.debounce + kSeen &&
-                                 fault.end() >= *probe_.pressed;
-            return fault.process == probe_.motor && fault.is_of_device() && is_then;
+            return fault.is_of_device() && std::ranges::any_of(probe_.touches, [&](const TouchRecord& touch) {
+                       const bool is_then =
+                           fault.at <= touch.pressed + touch.debounce + kSeen && fault.end() >= touch.pressed;
+                       return fault.process == touch.motor && is_then;
+                   });
         });
     }
 
@@ -80,13 +86,14 @@ private:
         return false;
     }
 
-    /// A probe that touches at rest may be reported when the motion is about to begin.
+    /// The first touch counts. A probe that touches at rest may be reported when the motion is about to begin.
     void check_time() {
-        if (!probe_.pressed) { return object("a touch is reported, but nothing touched"); }
+        if (probe_.touches.empty()) { return object("a touch is reported, but nothing touched"); }
+        const Tick pressed = probe_.touches.front().pressed;
         const Tick reported = probe_.result.tick;
-        const Ticks most = error_between(probe_.motor, probe_.motor) + kSeen;
-        if (reported > *probe_.pressed + most && !has_steps_between(*probe_.pressed, reported)) { return; }
-        const Ticks off = reported - *probe_.pressed;
+        const Ticks most = error_of_touches() + error_of_touches() + kSeen;
+        if (reported > pressed + most && !has_steps_between(pressed, reported)) { return; }
+        const Ticks off = reported - pressed;
         if (off > most || off < Ticks{} - most) {
             object("the touch is reported " + std::to_string(off.value) + " ticks off; the clocks are within " +
                    std::to_string(most.value));
@@ -95,12 +102,12 @@ private:
 
     /// The probe touched while the machine still moved afterwards, and no fault explains why that was missed.
     void check_unnoticed() {
-        if (!probe_.pressed || !probe_.is_undisturbed) { return; }
+        if (probe_.touches.empty() || !probe_.is_undisturbed) { return; }
+        Tick known = probe_.touches.front().pressed + probe_.touches.front().debounce;
+        for (const TouchRecord& touch : probe_.touches) { known = std::min(known, touch.pressed + touch.debounce); }
         for (std::size_t m = 0; m < recording_.motors.size(); ++m) {
             const auto steps = recording_.steps_of(job_, m);
-            if (steps.empty() || recording_.motors[m].truth(steps.back()) <= *probe_.pressed + probe_.debounce) {
-                continue;
-            }
+            if (steps.empty() || recording_.motors[m].truth(steps.back()) <= known) { continue; }
             return object("the touch was not noticed");
         }
     }

@@ -7,6 +7,7 @@ namespace lockstep::simtest {
 namespace {
 
 constexpr int kChannel = 5;
+constexpr int kSecondChannel = 6;
 constexpr double kAnyOvershoot_mm = 1000;
 
 Interrupt interrupt_of(Draw& draw, Interrupt::Kind kind) {
@@ -40,25 +41,43 @@ Task draw_probing_task(Draw& draw, const Scenario& scenario) {
     return task;
 }
 
+InputConfig draw_input(Draw& draw, const MachineConfig& machine, std::string name, int channel) {
+    const std::size_t motor = draw.index(motor_count(machine));
+    return {.name = std::move(name),
+            .motor = motor_name(machine, motor),
+            .at_board = motor >= moving_motor_count(machine),
+            .channel = channel,
+            .use = InputUse::Probe,
+            .active_low = draw.chance(0.5),
+            .debounce_ms = draw.chance(0.3) ? 0 : draw.magnitude(0.01, 10),
+            .number = 0,
+            .max_overshoot_mm = kAnyOvershoot_mm};
+}
+
+/// Another input of the probe, and which of the two touch, in which order.
+void give_second_input(Draw draw, Scenario& scenario) {
+    if (draw.chance(0.5)) { return; }
+    scenario.machine.inputs.push_back(draw_input(draw, scenario.machine, "second", kSecondChannel));
+    for (Task& task : scenario.tasks) {
+        for (Interrupt& interrupt : task.interrupts) {
+            if (interrupt.kind != Interrupt::Kind::Touch) { continue; }
+            interrupt.touched = draw.index(2);
+            if (draw.chance(0.7)) { interrupt.next_after_s = draw.chance(0.2) ? 0 : draw.magnitude(0.00001, 0.1); }
+        }
+    }
+}
+
 }  // namespace
 
 void give_probes(std::uint64_t seed, Scenario& scenario) {
     Draw draw(seed ^ 0x9408e9408e9408e9U);
-    const std::size_t motor = draw.index(motor_count(scenario.machine));
-    scenario.machine.inputs.push_back({.name = "probe",
-                                       .motor = motor_name(scenario.machine, motor),
-                                       .at_board = motor >= moving_motor_count(scenario.machine),
-                                       .channel = kChannel,
-                                       .use = InputUse::Probe,
-                                       .active_low = draw.chance(0.5),
-                                       .debounce_ms = draw.chance(0.3) ? 0 : draw.magnitude(0.01, 10),
-                                       .number = 0,
-                                       .max_overshoot_mm = kAnyOvershoot_mm});
+    scenario.machine.inputs.push_back(draw_input(draw, scenario.machine, "probe", kChannel));
     for (std::int64_t n = draw.whole(1, 3); n > 0; --n) {
         const auto place = draw.index(scenario.tasks.size());
         scenario.tasks.insert(scenario.tasks.begin() + static_cast<std::ptrdiff_t>(place),
                               draw_probing_task(draw, scenario));
     }
+    give_second_input(Draw(seed ^ 0x2c0ffee2c0ffeeU), scenario);
 }
 
 }  // namespace lockstep::simtest

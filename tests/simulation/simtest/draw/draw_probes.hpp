@@ -5,7 +5,8 @@
 
 namespace lockstep::simtest {
 
-/// Gives the machine a probe at a device, and adds jobs that probe. Call it after all other inputs are given.
+/// Gives the machine a probe with one or two inputs at devices, and adds jobs that probe. Call it after all other
+/// inputs are given.
 void give_probes(std::uint64_t seed, Scenario& scenario);
 
 }  // namespace lockstep::simtest

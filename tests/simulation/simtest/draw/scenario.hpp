@@ -159,13 +159,15 @@ struct Interrupt {
         Override,
         StopInput,  // a person presses the emergency stop at a device, tries a reset, and releases it
         Door,       // a door opens, and closes after the hold
-        Touch       // the probe touches until the job ends
+        Touch       // the probe touches, by one of its inputs or by two, until the job ends
     };
     Kind kind = Kind::HoldAndResume;
     double after_s = 0;  // after the motion began or continued
     double rest_s = 0;   // duration of the hold
     WrongCommand wrong;
     Overrides overrides;
+    std::size_t touched = 0;             // Touch: the input that touches first, of those of the probe
+    std::optional<double> next_after_s;  // Touch: another one touches so much later
 };
 
 /// A number of blocks of a program, sent `after_s` after the previous part was taken.

@@ -53,11 +53,14 @@ struct Hash {
     void add(const AxisTrack& track) { of(track.from, track.body, track.tail); }
     void add(const PathPlace& place) { of(place.block, static_cast<std::int64_t>(place.along.raw >> 32)); }
     void add(const Overrides& overrides) { of(overrides.feed_percent, overrides.rapid_percent); }
-    void add(const TouchInput& touch) { of(touch.motor, touch.channel, touch.opens); }
+    void add(const TouchInputs& touch) {
+        add(!touch.empty());
+        for (const TouchInput& input : touch.any_of) { of(input.motor, input.channel, touch.opens); }
+    }
     void add(const MotorOutputs& of_motor) { of(of_motor.motor, of_motor.track.body, of_motor.track.tail); }
     void add(const Frame& f) {
         of(f.term, f.epoch, f.number, f.start, f.ticks, f.last, f.axes);
-        add_if(f.touch.has_value() || !f.outputs.empty(), f.touch, f.outputs);
+        add_if(!f.touch.empty() || !f.outputs.empty(), f.touch, f.outputs);
     }
     void add(const Switches& s) { of(s.limit_min, s.limit_max, s.home); }
     void add(const AxisState& s) {

@@ -111,17 +111,22 @@ struct Claim {
     std::size_t process = 0;
 };
 
+/// A touch of an input of a probe.
+struct TouchRecord {
+    std::size_t motor = 0;  // whose device has the input
+    Tick pressed;
+    Ticks debounce;
+};
+
 /// How a probing move ended.
 struct ProbeRecord {
     ProbeResult result;
-    std::size_t motor = 0;        // whose device has the probe
-    std::optional<Tick> pressed;  // when it touched
-    Ticks debounce;
-    std::vector<std::int64_t> from;  // of each motor, where the move began
-    std::vector<double> places;      // of each moving motor: where the result places it, in steps
-    std::vector<double> within;      // of each moving motor: by how much that may differ from its count, in steps
-    double went_on_mm = 0;           // behind the touch
-    double most_mm = 0;              // announced
+    std::vector<TouchRecord> touches;  // in order
+    std::vector<std::int64_t> from;    // of each motor, where the move began
+    std::vector<double> places;        // of each moving motor: where the result places it, in steps
+    std::vector<double> within;        // of each moving motor: by how much that may differ from its count, in steps
+    double went_on_mm = 0;             // behind the touch
+    double most_mm = 0;                // announced
     bool is_undisturbed = false;
 };
 

@@ -338,7 +338,7 @@ void JobPlayer::interrupt(const Interrupt& interrupt) {
         case Interrupt::Kind::Override: return set_overrides(interrupt.overrides);
         case Interrupt::Kind::StopInput: return press_stop();
         case Interrupt::Kind::Door: return open_door(interrupt);
-        case Interrupt::Kind::Touch: return touch();
+        case Interrupt::Kind::Touch: return touch(interrupt);
     }
 }
 
@@ -418,9 +418,17 @@ void JobPlayer::open_door(const Interrupt& interrupt) {
 }
 
 /// The machine comes to rest and the job ends.
-void JobPlayer::touch() {
-    touched_ = bench_.vm().now();
-    bench_.set_input(bench_.machine().inputs.size() - 1, true);
+void JobPlayer::touch(const Interrupt& interrupt) {
+    const std::vector<std::size_t> inputs = probe_inputs(bench_.machine());
+    const auto press = [&](std::size_t input) {
+        touches_.push_back(touch_record(bench_.machine(), input, bench_.vm().now()));
+        bench_.set_input(input, true);
+    };
+    press(inputs[interrupt.touched]);
+    if (interrupt.next_after_s) {
+        if (*interrupt.next_after_s > 0) { bench_.wait(*interrupt.next_after_s); }
+        press(inputs[1 - interrupt.touched]);
+    }
     const double seconds = 2 * bench_.protocol_seconds() + job_.course.seconds;
     (void)bench_.await([&] { return ended() || disturbed() || in(MachinePhase::Holding); }, seconds, "a touch");
 }
@@ -465,15 +473,18 @@ void JobPlayer::record() {
 /// Takes the result of this job's probing move, if it has one.
 void JobPlayer::record_probe() {
     if (!is_probing(task_.program)) { return; }
-    if (touched_) {
-        const std::size_t probe = bench_.machine().inputs.size() - 1;
-        bench_.set_input(probe, false);
-        bench_.wait(bench_.input_seconds(probe));
+    if (!touches_.empty()) {
+        double seconds = 0;
+        for (const std::size_t input : probe_inputs(bench_.machine())) {
+            bench_.set_input(input, false);
+            seconds = std::max(seconds, bench_.input_seconds(input));
+        }
+        bench_.wait(seconds);
     }
     const auto& result = bench_.vm().state()->probe;
     if (!begun_ || !result || result->job == probed_before_) { return; }
     job_.probe = probe_record(bench_, task_.program, job_, at_);
-    job_.probe->pressed = touched_;
+    job_.probe->touches = touches_;
     job_.probe->is_undisturbed = !disturbed() && !job_.emergency;
 }
 

@@ -26,7 +26,7 @@ private:
     void press_stop();
     void open_door(const Interrupt& interrupt);
     void give(const WrongCommand& wrong);
-    void touch();
+    void touch(const Interrupt& interrupt);
     void resume();
     void record();
     void record_probe();
@@ -43,7 +43,7 @@ private:
     std::size_t next_ = 0;  // index of the next interrupt
     bool begun_ = false;
     Tick moving_since_;
-    std::optional<Tick> touched_;
+    std::vector<TouchRecord> touches_;
     std::uint64_t probed_before_ = 0;  // the job of the last result of a probe
 };
 

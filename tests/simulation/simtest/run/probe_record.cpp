@@ -39,24 +39,34 @@ void measure(const Bench& bench, double feed_mm_s, const Counts& at, ProbeRecord
         steps_mm += 2 * bench.kinematics().step_mm(i);
         most_decel = std::min(most_decel, machine.axes[i].max_decel_mm_s2);
     }
-    record.most_mm = overshoot_mm(machine, machine.inputs.back(), feed_mm_s, most_decel) + steps_mm;
+    for (const std::size_t input : probe_inputs(machine)) {
+        const double announced = overshoot_mm(machine, machine.inputs[input], feed_mm_s, most_decel);
+        record.most_mm = std::max(record.most_mm, announced + steps_mm);
+    }
 }
 
 }  // namespace
 
 bool is_probing(const Program& program) { return std::holds_alternative<Probe>(program.blocks.front().action); }
 
+std::vector<std::size_t> probe_inputs(const MachineConfig& machine) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < machine.inputs.size(); ++i) {
+        if (machine.inputs[i].use == InputUse::Probe) { found.push_back(i); }
+    }
+    return found;
+}
+
+TouchRecord touch_record(const MachineConfig& machine, std::size_t input, Tick pressed) {
+    const InputConfig& config = machine.inputs[input];
+    const double debounce = std::ceil(config.debounce_ms * 1e-3 * machine.ticks_per_second());
+    return {
+        .motor = motor_named(machine, config.motor).value(), .pressed = pressed, .debounce = {std::llround(debounce)}};
+}
+
 ProbeRecord probe_record(Bench& bench, const Program& program, const JobRecord& job, const Counts& at) {
     const MachineConfig& machine = bench.machine();
-    const InputConfig& input = machine.inputs.back();
-    const double debounce = std::ceil(input.debounce_ms * 1e-3 * machine.ticks_per_second());
-    ProbeRecord record{.result = *bench.vm().state()->probe,
-                       .motor = motor_named(machine, input.motor).value(),
-                       .pressed = {},
-                       .debounce = {std::llround(debounce)},
-                       .from = {},
-                       .places = {},
-                       .within = {}};
+    ProbeRecord record{.result = *bench.vm().state()->probe, .touches = {}, .from = {}, .places = {}, .within = {}};
     Places places;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         places.push_back(record.result.places_mm[i] * machine.axes[i].steps_per_mm);

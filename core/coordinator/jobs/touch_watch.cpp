@@ -1,0 +1,48 @@
+#include "core/coordinator/jobs/touch_watch.hpp"
+
+#include <utility>
+
+#include "core/coordinator/jobs/job_commands.hpp"
+#include "core/kinematics/motors.hpp"
+
+namespace lockstep {
+namespace {
+
+/// The job moves to where this input, a probe's, touches or opens.
+bool probes_with(const InputConfig& input, const MachineActivity& activity) {
+    const auto* const path = activity.as<activity::OnPath>();
+    return path != nullptr && path->task.probe && path->task.probe->input == input.number;
+}
+
+void come_to_rest(std::size_t number, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    const InputConfig& input = loop.machine.inputs[number];
+    loop.notice({CoordinatorNotice::Kind::TouchInMotion, FaultCode::None, number});
+    if (input.at_touch_in_motion == TouchInMotion::Fault) {
+        return jobs.fail({FaultCode::TouchInMotion, motor_named(loop.machine, input.motor).value_or(0)}, loop);
+    }
+    const bool can_hold = jobs.activity().is<activity::OnPath>();
+    (void)commands::interrupt(can_hold ? Intent::Hold : Intent::Stop, jobs, loop);
+}
+
+}  // namespace
+
+/// An input that was not known before does not touch anew.
+bool TouchWatch::touches_anew(std::size_t input, const LoopView& loop) {
+    const InputConfig& config = loop.machine.inputs[input];
+    const auto motor = motor_named(loop.machine, config.motor);
+    if (!motor || !loop.axes.state(*motor)) { return false; }
+    const bool is_closed = (loop.axes.state(*motor)->inputs >> config.channel & 1) != 0;
+    return !std::exchange(were_closed_[input], is_closed).value_or(true) && is_closed;
+}
+
+void TouchWatch::look(JobLifecycle& jobs, CoordinatorLoop& loop) {
+    were_closed_.resize(loop.machine.inputs.size());
+    for (std::size_t i = 0; i < loop.machine.inputs.size(); ++i) {
+        const InputConfig& input = loop.machine.inputs[i];
+        if (input.at_touch_in_motion == TouchInMotion::Nothing || !touches_anew(i, loop)) { continue; }
+        const MachineActivity& activity = jobs.activity();
+        if (activity.in_motion() && !probes_with(input, activity)) { come_to_rest(i, jobs, loop); }
+    }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,23 @@
+// Touches of probes in motions that do not probe with them: a tool has met something. Then the machine comes to rest on
+// its path, as the inputs ask for it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/coordinator/jobs/job_lifecycle.hpp"
+
+namespace lockstep {
+
+class TouchWatch {
+public:
+    /// Call it in each loop. Only a change counts, so that the axes can be moved away from what they touch.
+    void look(JobLifecycle& jobs, CoordinatorLoop& loop);
+
+private:
+    bool touches_anew(std::size_t input, const LoopView& loop);
+
+    std::vector<std::optional<bool>> were_closed_;  // the machine's inputs, at the last look
+};
+
+}  // namespace lockstep
