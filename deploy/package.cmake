@@ -9,6 +9,7 @@ install(DIRECTORY deploy/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep
 install(FILES ${PROJECT_BINARY_DIR}/share/lockstep/firmware/lockstep-board.uf2
   DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/firmware COMPONENT lockstep OPTIONAL)
 install(DIRECTORY deploy/grbl/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/grbl COMPONENT lockstep)
+install(DIRECTORY deploy/subroutines/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/subroutines COMPONENT lockstep)
 install(DIRECTORY deploy/scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/scenarios COMPONENT lockstep)
 # Documents, and the files that they link to, keep their relative paths, so that the links work.
 set(DOCUMENTS README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md LICENSE NOTICE)
