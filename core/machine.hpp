@@ -53,6 +53,13 @@ struct ScrewPoint {
     bool operator==(const ScrewPoint&) const = default;
 };
 
+/// The play of a motor: how far it turns back before its slide follows.
+struct BacklashConfig {
+    double mm = 0;
+    std::optional<double> speed_mm_s;  // of the motor while it takes up the play; none: its greatest speed
+    bool operator==(const BacklashConfig&) const = default;
+};
+
 /// Properties of the simulated hardware behind an axis.
 struct PlantConfig {
     double start_position_mm = 0;       // where the slide stands at power-up, in machine coordinates
@@ -76,7 +83,8 @@ struct MotorBlock {
     std::optional<double> max_following_error_mm;
     std::optional<PlantConfig> plant;
     std::optional<PinsConfig> pins;
-    std::vector<ScrewPoint> screw;  // of its own; empty: the axis's
+    std::vector<ScrewPoint> screw;           // of its own; empty: the axis's
+    std::optional<BacklashConfig> backlash;  // of its own; none: the axis's
 };
 
 /// A coordinate that programs name. Without `motors` it has one motor, with its name, whose properties stand here.
@@ -99,6 +107,7 @@ struct AxisConfig {
     PlantConfig plant;
     PinsConfig pins;
     std::vector<ScrewPoint> screw;  // empty: its screw is exact
+    std::optional<BacklashConfig> backlash;
     std::vector<MotorBlock> motors;
     std::optional<double> max_skew_mm;  // by how much its motors may differ while they square; several motors only
 };

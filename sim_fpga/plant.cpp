@@ -19,7 +19,7 @@ std::int64_t steps_up(double steps) { return std::llround(std::ceil(steps - kRou
 }  // namespace
 
 Plant::Plant(const MotorConfig& motor, std::int64_t tick_ns)
-    : steps_per_mm_(motor.steps_per_mm), start_mm_(motor.plant.start_position_mm) {
+    : steps_per_mm_(motor.steps_per_mm), start_mm_(motor.plant.start_position_mm), play_(motor.backlash) {
     const auto steps_to = [&](double mm) { return (mm - start_mm_) * steps_per_mm_; };
     limit_min_at_ = steps_down(steps_to(motor.position_min_mm - motor.plant.travel_margin_mm));
     limit_max_at_ = steps_up(steps_to(motor.position_max_mm + motor.plant.travel_margin_mm));

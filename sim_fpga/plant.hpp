@@ -1,6 +1,7 @@
 // The plant behind the simulated device's pulses: a motor that can lose steps, a slide, its switches and an encoder.
 //
-// The slide moves one step a pulse; its switches and encoder follow its true position, so they change at steps only.
+// The motor moves one step a pulse, and the slide with it, behind its backlash. The encoder is the motor's. The
+// switches follow the slide's true position, so they change at steps only.
 //
 // The model of the motor uses the times of the pulses alone: every kWindow ticks or the next pulse after that, it takes
 // the mean speed since the last evaluation. The rotor's speed follows it with at most A = max_torque_accel_mm_s2. While
@@ -41,10 +42,10 @@ public:
     void step(StepEdge edge) {
         pulses_ += edge.direction;
         if (edge.tick - evaluated_ >= kWindow) { evaluate(edge); }
-        slide_ += slips_ ? 0 : edge.direction;
+        if (!slips_) { turn(edge.direction); }
     }
     /// Moves the slide without pulses, as if by hand.
-    void push(std::int64_t steps) { slide_ += steps; }
+    void push(std::int64_t steps) { slide_ += steps, motor_ += steps; }
     /// Puts something for a probe at a place, in steps since power-up: at and beyond it the pin of input `input` is
     /// high, or low. Inputs put there before stay, but all at this place.
     void put_probe(unsigned input, std::int64_t at, bool toward_min, bool low = false) {
@@ -66,8 +67,9 @@ public:
     /// The pins of the switches are free: this is no motor's plant.
     void remove_switches() { has_switches_ = false; }
 
-    /// The true position of the slide, in whole steps since power-up.
-    std::int64_t encoder() const { return slide_; }
+    /// The true position of the motor, in whole steps since power-up.
+    std::int64_t encoder() const { return motor_; }
+    /// That of the slide.
     double position_mm() const;
     PlantInputs inputs() const {
         const PlantInputs closed{.limit_min = slide_ <= limit_min_at_,
@@ -94,6 +96,13 @@ private:
     /// within one step.
     void keep_limits_open(const MotorConfig& motor);
     void evaluate(StepEdge edge);
+    /// The motor turns by a step. The slide follows when the play is used up.
+    void turn(std::int64_t step) {
+        motor_ += step;
+        const std::int64_t before = play_.steps();
+        play_.follow(step);
+        slide_ += step - (play_.steps() - before);
+    }
 
     double steps_per_mm_;
     double start_mm_;
@@ -120,7 +129,9 @@ private:
     Tick evaluated_{-(std::int64_t{1} << 62)};  // at rest since long ago
     double evaluated_place_ = 0;                // the position of the pulses then, in steps
     std::int64_t pulses_ = 0;                   // forward minus backward
+    std::int64_t motor_ = 0;
     std::int64_t slide_ = 0;
+    Play play_;
 };
 
 /// The plant of a motor of the machine. Nobody touches its inputs: all are open, except those of probes at and beyond

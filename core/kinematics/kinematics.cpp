@@ -22,7 +22,7 @@ Kinematics::Kinematics(const MachineConfig& machine)
       axis_names_(machine.axis_names()),
       map_(step_map_of(machine)),
       inverse_(map_.motors_by_joints().inverse().value_or(LinearMap(map_.axes(), map_.motors()))),
-      is_direct_(map_.is_identity()) {
+      is_direct_(map_.is_identity() && !has_backlash(machine)) {
     for (std::size_t i = 0; i < map_.axes(); ++i) {
         axis_steps_per_mm_.push_back(machine.axes[i].steps_per_mm);
         own_motors_.push_back(find_own_motor(i));
@@ -197,7 +197,8 @@ std::optional<std::size_t> Kinematics::find_own_motor(std::size_t axis) const {
         if (share == 0) { continue; }
         const double with_screw = motors_[m].steps_per_mm / axis_steps_per_mm_[axis];  // the axis has finer steps
         const bool follows = share == 1 || (map_.screw(m) != nullptr && share == with_screw);
-        if (own || !follows || map_.shares().only_axis_of(m) != axis) { return std::nullopt; }
+        const bool has_play = !motors_[m].backlash.is_none();
+        if (own || !follows || has_play || map_.shares().only_axis_of(m) != axis) { return std::nullopt; }
         own = m;
     }
     return own;

@@ -1,5 +1,5 @@
 // Where the motors are when the axes are somewhere, and the other way round. The only place that knows which motors
-// move an axis.
+// move an axis. The places of motors are those of their slides: without the play of their backlash.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,8 @@ public:
     const std::vector<MotorConfig>& motors() const { return motors_; }
     std::span<const MotorConfig> moving_motors() const { return std::span(motors_).first(map_.motors()); }
     std::size_t axes() const { return map_.axes(); }
-    /// Each axis is moved by a motor of its own, with the axis's number, limits and steps; boards follow.
+    /// Each axis is moved by a motor of its own, with the axis's number, limits and steps, without backlash; boards
+    /// follow.
     bool is_direct() const { return is_direct_; }
 
     /// Where the motors rest while the axes rest on whole steps: each within half a step of its place.
@@ -66,7 +67,7 @@ public:
         return motors_at(axes)[motor];
     }
     /// The only motor of an axis, if it moves no other axis and has the axis's steps, or corrects its screw; otherwise
-    /// nullopt.
+    /// nullopt, also if it has backlash.
     const std::optional<std::size_t>& own_motor(std::size_t axis) const { return own_motors_[axis]; }
     /// Says why an axis without a motor of its own does not move by itself.
     std::string needs_frames(std::size_t axis) const;

@@ -214,6 +214,23 @@ Screw screw_of(const std::vector<ScrewPoint>& points, double share, double unit)
     return Screw(errors);
 }
 
+/// What the configuration gives of a motor's backlash: its own, or its axis's.
+const std::optional<BacklashConfig>& backlash_of(const AxisConfig& axis, const MotorBlock* block) {
+    return block == nullptr || !block->backlash ? axis.backlash : block->backlash;
+}
+
+/// `share`: mm of the motor's way for each mm of the configuration. Places beyond the travel by the play are within the
+/// travel of the slide.
+void take_up_backlash(MotorConfig& motor, const std::optional<BacklashConfig>& config, double share) {
+    if (!config) { return; }
+    motor.backlash = {.steps = to_steps(motor, std::abs(share) * config->mm),
+                      .speed_mm_s = std::min(config->speed_mm_s.value_or(motor.max_velocity_mm_s) * std::abs(share),
+                                             motor.max_velocity_mm_s),
+                      .toward_min = motor.homing.toward_min};
+    motor.position_min_mm += to_mm(motor, static_cast<double>(motor.backlash.low()));
+    motor.position_max_mm += to_mm(motor, static_cast<double>(motor.backlash.high()));
+}
+
 /// The points are those of the axis that the motor moves alone; otherwise of the motor's own way.
 double share_of_points(const LinearMap& map, std::size_t motor, std::size_t axis) {
     return map.only_axis_of(motor) == axis ? map.factor(motor, axis) : 1;
@@ -392,9 +409,18 @@ std::vector<MotorConfig> moving_motors_of(const MachineConfig& given) {
         if (tower) { set_carriage(motor, block, machine, *delta, *tower); }
         motor.screw = screw_of(screw_of(axis, block), share_of_points(map, motors.size(), a), 1);
         correct_screw(motor, block);
+        take_up_backlash(motor, backlash_of(axis, block), share_of_points(map, motors.size(), a));
         motors.push_back(std::move(motor));
     });
     return motors;
+}
+
+bool has_backlash(const MachineConfig& machine) {
+    bool has_any = false;
+    each_motor(machine, [&](std::size_t, const AxisConfig& axis, const MotorBlock* block) {
+        has_any = has_any || backlash_of(axis, block).has_value();
+    });
+    return has_any;
 }
 
 std::vector<MotorConfig> motors_of(const MachineConfig& machine) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/kinematics/backlash.hpp"
 #include "core/kinematics/motor_map.hpp"
 #include "core/machine.hpp"
 
@@ -34,12 +35,14 @@ struct MotorConfig {
     PlantConfig plant;
     PinsConfig pins;
     Screw screw;  // in mm
+    Backlash backlash;
 
     bool is_board() const { return !axis; }
 };
 
 /// The motors in the order of the axes in whose configuration they stand, and behind them the boards. A limit that a
-/// motor has not of its own is what the axes' limits demand of it at most, and its travel is what the axes' travels do.
+/// motor has not of its own is what the axes' limits demand of it at most, and its travel is what the axes' travels do,
+/// with its backlash.
 /// `machine` must be one that machine_from_text (services/documents) has accepted.
 std::vector<MotorConfig> motors_of(const MachineConfig& machine);
 std::vector<MotorConfig> moving_motors_of(const MachineConfig& machine);  // without the boards
@@ -52,6 +55,9 @@ bool estimates_clock(const MachineConfig& machine, std::size_t motor);
 double motor_steps_per_mm(const MachineConfig& machine, std::size_t motor);
 /// The number of the motor with this name; nullopt if there is none.
 std::optional<std::size_t> motor_named(const MachineConfig& machine, std::string_view name);
+
+/// Some motor takes up backlash.
+bool has_backlash(const MachineConfig& machine);
 
 /// Without the boards, so each other motor moves.
 std::size_t moving_motor_count(const MachineConfig& machine);
