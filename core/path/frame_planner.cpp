@@ -103,7 +103,8 @@ void FramePlanner::note_begins(const TimedPath& path, Ticks ticks, std::vector<M
         if (to < from) { continue; }
         trail_.each_begin(phase.origin.piece, [&](double on_geometry, std::uint32_t block) {
             const double u = on_geometry - phase.origin.u;
-            const bool is_in = u >= phase.along(from) - kHair_mm && u <= phase.along(to) + kHair_mm;
+            const double most = phase.shape->is_aside ? 0 : phase.along(to);
+            const bool is_in = u >= phase.along(from) - kHair_mm && u <= most + kHair_mm;
             if (is_in) { begins.push_back({block, std::clamp(phase.time_at(u), from, to)}); }
         });
     }

@@ -14,6 +14,7 @@ PathPlanner::PathPlanner(const PathPlanner& other)
       window_(other.window_),
       frames_(other.frames_, setup_, window_, geometry_.trail()),
       start_(other.start_),
+      at_(other.at_),
       is_sought_(other.is_sought_),
       passed_(other.passed_),
       is_finished_(other.is_finished_),
@@ -29,6 +30,8 @@ void PathPlanner::begin(std::span<const Position> at) {
 
 void PathPlanner::resume(const PathPlace& place, std::span<const Position> at) {
     begins_.clear();
+    at_.clear();
+    for (const Position& position : at) { at_.append(position); }
     frames_.begin(at);
     seek(place);
 }
@@ -37,7 +40,7 @@ void PathPlanner::resume(const PathPlace& place, std::span<const Position> at) {
 void PathPlanner::seek(const PathPlace& place) {
     start_ = place;
     is_sought_ = true;
-    window_.restart(overrides_, {});
+    window_.restart(overrides_, {}, {at_.begin(), at_.size()});
     pass_on();
     if (is_finished_) { window_.finish(); }
 }
@@ -65,7 +68,7 @@ void PathPlanner::pass_on() {
         const auto spot = geometry_.spot_of(start_);
         passed_ = spot ? spot->piece : ready;
         if (!spot) { return geometry_.drop_before(ready); }
-        window_.restart(overrides_, *spot);
+        window_.restart(overrides_, *spot, {at_.begin(), at_.size()});
         is_sought_ = false;
     }
     for (; passed_ < ready; ++passed_) { window_.add(geometry_.trail().piece(passed_)); }

@@ -76,6 +76,7 @@ private:
     SpeedWindow window_;
     FramePlanner frames_;
     PathPlace start_;         // where the path continues
+    MotorPositions at_;       // the motors, there
     bool is_sought_ = false;  // start_ is not found on the geometry yet
     std::size_t passed_ = 0;  // pieces that were passed to the window
     bool is_finished_ = false;

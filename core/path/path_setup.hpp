@@ -13,6 +13,13 @@
 
 namespace lockstep {
 
+/// The backlash of a motor.
+struct MotorBacklash {
+    Backlash backlash;
+    double steps_per_mm = 0;    // of the motor
+    double steps_per_tick = 0;  // the speed of the motor while it takes up the play
+};
+
 /// Geometry is in steps of the axes; speeds are limited and pieces fitted in rows. If each axis is moved by a motor of
 /// its own, with the axis's steps, the rows are the axes. Otherwise they are the motors, and behind them the axes.
 struct PathSetup {
@@ -26,6 +33,7 @@ struct PathSetup {
     MotorMap motor_map;                        // steps of the motors by those of the axes; empty: each axis is a motor
     /// Steps of each axis: if all axes deviate by so much, no motor deviates by more than a step. Empty: 1.
     std::vector<double> motor_step;
+    std::vector<MotorBacklash> backlashes;  // of the motors; empty: none has any
 
     std::size_t axes() const { return steps_per_mm.size(); }
     std::size_t motors() const { return has_map() ? motor_map.motors() : limits.size(); }
@@ -93,8 +101,16 @@ inline PathSetup path_setup_of(const MachineConfig& machine) {
                     .body_pieces = static_cast<std::size_t>(body_pieces(machine.timing)),
                     .boards = machine.boards.size()};
     setup.limits.resize(moving_motor_count(machine));
-    if (const MotorMap map = step_map_of(machine); !map.is_identity()) {
+    const bool takes_up = has_backlash(machine);
+    if (const MotorMap map = step_map_of(machine); takes_up || !map.is_identity()) {
         setup.use_map(map, axis_frame_limits_of(machine));
+    }
+    if (takes_up) {
+        for (const MotorConfig& motor : moving_motors_of(machine)) {
+            const double steps_per_s = motor.backlash.speed_mm_s * motor.steps_per_mm;
+            setup.backlashes.push_back(
+                {motor.backlash, motor.steps_per_mm, steps_per_s * static_cast<double>(machine.tick_ns) * 1e-9});
+        }
     }
     for (std::size_t i = 0; i < setup.rows(); ++i) {
         AxisLimits& row = setup.limits[i];

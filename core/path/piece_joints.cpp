@@ -7,7 +7,7 @@ namespace lockstep {
 namespace {
 
 constexpr double kStopShare = 0.8;   // of the start velocity, where the path begins or ends: a joint may follow
-constexpr double kRestShare = 0.4;   // of the start velocity, at a short rest, where two jumps follow each other
+constexpr double kRestShare = 0.4;   // of the start velocity, at a short rest or a piece aside: two jumps follow
 constexpr double kWorthSlowing = 2;  // least gain, because the adjacent pieces become slower too
 constexpr int kMostHalves = 40;
 
@@ -17,13 +17,15 @@ Joint PieceJoints::joint(const Quadratic* before, const Quadratic* after, double
     Joint joint{kMost, 0};
     const bool is_stop = before == nullptr || after == nullptr;
     const bool is_rest = (before != nullptr && before->length == 0) || (after != nullptr && after->length == 0);
+    const bool is_aside = (before != nullptr && before->is_aside) || (after != nullptr && after->is_aside);
     each_of(Neighbours{before, after}.moving(), [&](std::size_t i) {
         const double t0 = before == nullptr || before->length == 0 ? 0 : before->slope_at(i, before->length);
         const double t1 = after == nullptr || after->length == 0 ? 0 : after->slope_at(i, before == nullptr ? from : 0);
         const double jump = std::abs(t1 - t0);
         if (jump < kNothing) { return; }
         const double start = setup_.limits[i].start_velocity;
-        const double share = is_rest && !is_stop ? kRestShare : is_stop ? kStopShare : kJointShare;
+        const bool is_followed = is_aside || (is_rest && !is_stop);
+        const double share = is_followed ? kRestShare : is_stop ? kStopShare : kJointShare;
         const double speed = share * start / jump;
         joint.cap = std::min(joint.cap, speed * speed);
         joint.jump = std::max(joint.jump, jump / start);
@@ -81,7 +83,7 @@ PieceJoints::FastPassage PieceJoints::fast_passage(const JoinedPiece& piece, con
 }
 
 void PieceJoints::settle(JoinedPiece& piece, const Neighbours& beside) const {
-    if (piece.shape.length > 0) { charge(piece, beside); }
+    if (piece.shape.moves_on()) { charge(piece, beside); }
     if (piece.is_charged && piece.shape.is_straight) { slow(piece, beside); }
 }
 

@@ -26,8 +26,8 @@ struct Neighbours {
 
     /// The rows that move beside a piece.
     AxisSet moving() const { return (before != nullptr ? before->moving : 0) | (next != nullptr ? next->moving : 0); }
-    bool follows() const { return before != nullptr && before->length > 0; }
-    bool goes_on() const { return next != nullptr && next->length > 0; }
+    bool follows() const { return before != nullptr && before->moves_on(); }
+    bool goes_on() const { return next != nullptr && next->moves_on(); }
 };
 
 class PieceJoints {

@@ -13,20 +13,26 @@ constexpr double kLeastBegin_mm = 1e-9;  // a shorter rest of the first piece is
 /// Whether the path begins at the end of the piece. If the machine must rest there, the shortest remainder counts.
 bool is_passed(const Quadratic& piece, const Neighbours& beside) {
     if (beside.before != nullptr || piece.length == 0) { return false; }
-    return piece.length - beside.from <= (beside.goes_on() ? kLeastBegin_mm : 0);
+    const bool goes_on = beside.next != nullptr && beside.next->length > 0;
+    return piece.length - beside.from <= (goes_on ? kLeastBegin_mm : 0);
 }
 
 }  // namespace
 
-void SpeedWindow::restart(const Overrides& overrides, const PathSpot& begin) {
+void SpeedWindow::restart(const Overrides& overrides, const PathSpot& begin, std::span<const Position> motors) {
     clear(begin.piece);
     overrides_ = overrides;
     begin_u_ = begin.u;
+    backlash_.restart(begin.u, motors);
     joint_.reset();
 }
 
 void SpeedWindow::add(const Quadratic& piece) {
     if (!setup_.has_map()) { return add_rows(piece); }
+    if (!setup_.backlashes.empty()) {
+        for (const Quadratic& rows : backlash_.rows_of(setup_, piece)) { add_rows(rows); }
+        return;
+    }
     for (RowPieces rows(setup_, piece); !rows.is_done();) { add_rows(rows.next()); }
 }
 

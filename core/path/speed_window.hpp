@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/path/geometry/backlash_rows.hpp"
 #include "core/path/geometry/path_trail.hpp"
 #include "core/path/interval_window.hpp"
 #include "core/path/piece_joints.hpp"
@@ -24,8 +25,8 @@ class SpeedWindow : public IntervalWindow {
 public:
     explicit SpeedWindow(const PathSetup& setup) : IntervalWindow(setup) { restart({}, {}); }
     /// Resets it to a new window. Its memory is kept. The path begins at rest at `begin`, on the first piece that is
-    /// added.
-    void restart(const Overrides& overrides, const PathSpot& begin);
+    /// added. `motors`: where they rest there, which tells their plays; empty: where the map places them.
+    void restart(const Overrides& overrides, const PathSpot& begin, std::span<const Position> motors = {});
 
     /// Adds a piece that begins where the last one ends, in steps of the axes. A length of 0 is a rest.
     void add(const Quadratic& piece);
@@ -53,6 +54,7 @@ private:
     OverrideResult allow_braking(std::size_t number, double w);
     bool split_braking(std::size_t number, double w);
 
+    BacklashRows backlash_;
     Overrides overrides_;
     double begin_u_ = 0;            // where the path begins on the first piece of geometry
     std::optional<Joint> joint_;    // at the begin of the open piece, if it is known

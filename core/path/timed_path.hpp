@@ -40,7 +40,7 @@ struct PathPhase {
     /// The time at a place along the piece; in a rest, its begin.
     double time_at(double along) const;
     /// The spot on the geometry.
-    PathSpot spot(double along_mm) const { return {origin.piece, origin.u + along_mm}; }
+    PathSpot spot(double along_mm) const { return {origin.piece, origin.u + (shape->is_aside ? 0 : along_mm)}; }
     /// Place (steps) and velocity (steps per tick) of an axis.
     double place(std::size_t i, double t) const { return shape->place(i, along(t)); }
     double velocity(std::size_t i, double t) const { return shape->slope_at(i, along(t)) * speed(t); }

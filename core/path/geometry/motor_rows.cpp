@@ -70,7 +70,8 @@ AxisVector slope_at(const Quadratic& axes, double u) {
     return slope;
 }
 
-/// A part of a piece of the axes.
+}  // namespace
+
 Quadratic part_of(const Quadratic& axes, double from, double to) {
     Quadratic part = axes;
     part.from = place_at(axes, from);
@@ -81,6 +82,8 @@ Quadratic part_of(const Quadratic& axes, double from, double to) {
     part.ends_at_rest = axes.ends_at_rest && to == axes.length;
     return part;
 }
+
+namespace {
 
 /// The way of a motor whose slopes do not change over the piece.
 MotorWay straight_way(const MotorMap& map, std::size_t m, const Quadratic& axes) {

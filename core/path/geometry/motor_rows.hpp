@@ -38,6 +38,8 @@ private:
     std::size_t end_ = 1;
 };
 
+/// A part of a piece of the axes.
+Quadratic part_of(const Quadratic& axes, double from, double to);
 /// Where the motors rest if the axes rest at `at`.
 MotorPositions motors_at_rest(const PathSetup& setup, std::span<const Position> at);
 /// Each motor is on a whole step while the axes are at `at`, which is on whole steps of theirs.

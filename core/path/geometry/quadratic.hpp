@@ -25,11 +25,14 @@ struct Quadratic {
     bool is_straight = true;      // bend is 0
     bool begins_at_rest = false;  // the machine rests at its begin, and there at whole steps
     bool ends_at_rest = false;
+    bool is_aside = false;  // the place on the geometry stays at its begin while motors move beside it
     Ticks rest;             // duration if length is 0
     std::size_t piece = 0;  // the number of the piece of geometry in its stream
     double begin = 0;       // mm: rows may have several pieces for one piece of geometry, and this is where one begins
     AxisSet moving = 0;     // those with a slope or a bend, as moving_rows() has found them
 
+    /// The place on the geometry changes.
+    bool moves_on() const { return length > 0 && !is_aside; }
     double place(std::size_t i, double u) const {
         return from.begin()[i] + (slope.begin()[i] + bend.begin()[i] * (u - length) / 2) * u;
     }
