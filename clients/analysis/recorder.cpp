@@ -23,6 +23,15 @@ namespace {
 /// messages.
 constexpr std::int64_t kSilence_us = 500'000;
 
+/// The plays of all motors at the begin of a job; none if no motor has backlash, or if the record is damaged.
+AxisCounts plays_in(const RecordedJob& begun, const MachineConfig& machine) {
+    AxisCounts plays;
+    const std::size_t axes = machine.axes.size();
+    if (begun.start_count.size() != axes + motor_count(machine)) { return plays; }
+    for (std::size_t m = axes; m < begun.start_count.size(); ++m) { plays.append(begun.start_count[m]); }
+    return plays;
+}
+
 }  // namespace
 
 void Recorder::on_axis(const std::string& name) {
@@ -149,7 +158,7 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
     if (program) { record.name = program->head().name; }
     const bool homes = record.kind == "home";  // the places of its moves are assumed ones
     if (program && !homes) {
-        auto planned = AskedPath::of(*analysis_.config, program->head(), program);
+        auto planned = AskedPath::of(*analysis_.config, program->head(), program, plays_in(message, *analysis_.config));
         if (planned) {
             record.planned = planned->planned();
             record.legs = planned->legs();

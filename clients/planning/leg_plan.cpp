@@ -45,11 +45,12 @@ private:
 class LegPlanner {
 public:
     LegPlanner(const ProgramPlanner& planner, const Kinematics& kinematics,
-               const std::shared_ptr<const ProgramBlocks>& blocks, const Leg& leg)
+               const std::shared_ptr<const ProgramBlocks>& blocks, const Leg& leg, const AxisCounts& plays = {})
         : source_(planner.frames(blocks, leg.first, leg.from)), moves_(planner, *blocks, leg), waiting_(moves_.read()) {
         std::vector<Position> at;
         for (const std::int64_t count : kinematics.motors_at(leg.from).steps) {
-            at.push_back(Position::steps(count));
+            const std::size_t motor = at.size();
+            at.push_back(Position::steps(count + (motor < plays.size() ? plays[motor] : 0)));
             plan_.axes.emplace_back(at.back());
         }
         source_->resume({leg.first, {}}, at, {});
@@ -143,7 +144,8 @@ std::expected<std::vector<LegPlan>, PlanError> plan_legs(const MachineConfig& ma
 
 std::expected<PlannedLegs, PlanError> each_planned_move(const MachineConfig& machine, const ProgramHead& head,
                                                         const std::shared_ptr<const ProgramBlocks>& blocks,
-                                                        const AxisCounts& start, const OnPlannedMove& visit) {
+                                                        const AxisCounts& start, const OnPlannedMove& visit,
+                                                        AxisCounts plays) {
     const ProgramPlanner planner(machine);
     const Kinematics kinematics(machine);
     const auto legs = planner.plan(head, *blocks, start);
@@ -151,8 +153,10 @@ std::expected<PlannedLegs, PlanError> each_planned_move(const MachineConfig& mac
     PlannedLegs planned;
     for (const Leg& leg : *legs) {
         if (!leg.moves) { continue; }
-        const auto plan = LegPlanner(planner, kinematics, blocks, leg).run(visit);
+        const auto plan = LegPlanner(planner, kinematics, blocks, leg, plays).run(visit);
         if (!plan) { return std::unexpected(plan.error()); }
+        const MotorCounts slides = kinematics.motors_at(leg.to);
+        for (std::size_t m = 0; m < plays.size(); ++m) { plays[m] = plan->axes[m].to().count() - slides[m]; }
         ++planned.legs;
         planned.duration += plan->duration;
     }

@@ -22,6 +22,9 @@ public:
     };
 
     explicit AxisMotion(Position from) : to_(from) {}
+
+    /// Where it ends.
+    Position to() const { return to_; }
     void add(const Piece& piece);
     /// Drops the pieces that end by `t`. Do not call at() for earlier times afterwards.
     void forget_before(Ticks t);
@@ -66,10 +69,11 @@ struct PlannedLegs {
     Ticks duration;
 };
 /// `leg` is a part of the leg's plan. Its first move is the visited one; its duration is that of the motion planned so
-/// far.
+/// far. `plays`: of all motors at the start, if one has backlash; empty: 0.
 using OnPlannedMove = std::function<void(const LegPlan& leg)>;
 std::expected<PlannedLegs, PlanError> each_planned_move(const MachineConfig& machine, const ProgramHead& head,
                                                         const std::shared_ptr<const ProgramBlocks>& blocks,
-                                                        const AxisCounts& start, const OnPlannedMove& visit);
+                                                        const AxisCounts& start, const OnPlannedMove& visit,
+                                                        AxisCounts plays = {});
 
 }  // namespace lockstep

@@ -9,6 +9,7 @@
 #include "clients/simulation/program_feed.hpp"
 #include "clients/simulation/sliding_rows.hpp"
 #include "core/gcode/session/probe_touch.hpp"
+#include "core/kinematics/axis_states.hpp"
 #include "core/kinematics/kinematics.hpp"
 #include "services/documents/machine_file.hpp"
 
@@ -167,7 +168,7 @@ SimulationResult Simulation::finish(SimulationResult result) {
 
 std::vector<std::int64_t> Simulation::axis_counts() const {
     MotorCounts motors;
-    for (const auto& motor : vm_.axis_states()) { motors.steps.append(motor ? motor->position.count() : 0); }
+    for (const auto& motor : vm_.axis_states()) { motors.steps.append(motor ? slide_of(*motor).count() : 0); }
     const AxisCounts counts = Kinematics(vm_.machine()).axes_at(motors);
     return {counts.begin(), counts.end()};
 }

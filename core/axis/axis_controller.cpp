@@ -28,6 +28,7 @@ const AxisOutputs& AxisController::step(const AxisInputs& inputs) {
     AxisLoop loop{inputs.now, slot, gate_.next(slot), condition_, device_, out_};
     owner_.forgive(gate_.missed(loop.slot));
     look(inputs, loop);
+    condition_.position.follow(out_.tracks);
     receive(inputs, loop);
     move_on(loop);
     tend_outputs(loop);
@@ -262,6 +263,7 @@ AxisState AxisController::state(const AxisLoop& loop, Ticks clock_error) const {
             .velocity = device.velocity,
             .tick = device.now,
             .following_error_steps = condition_.position.following_error(device),
+            .play_steps = condition_.position.play_steps(device),
             .command_done = condition_.orders.done(),
             .command_fault = condition_.orders.fault(),
             .config_hash = config_hash_,

@@ -21,10 +21,11 @@ const AxisState* newest_of(AxisSet needed, std::span<const AxisState* const> mot
     return newest;
 }
 
-/// Where the motor is at the time of the newest state. Processes read their devices at different times of a slot.
+/// Where the motor's slide is at the time of the newest state. Processes read their devices at different times of a
+/// slot.
 Position place_at(const AxisState& newest, const AxisState& motor) {
-    if (newest.stamp - motor.stamp > kMostSlotsApart) { return motor.position; }
-    return motor.position + Displacement{Int128{motor.velocity.raw} * (newest.tick - motor.tick).value};
+    if (newest.stamp - motor.stamp > kMostSlotsApart) { return slide_of(motor); }
+    return slide_of(motor) + Displacement{Int128{motor.velocity.raw} * (newest.tick - motor.tick).value};
 }
 
 Switches any_of(const Switches& a, const Switches& b) {

@@ -9,6 +9,9 @@
 
 namespace lockstep {
 
+/// Where the motor's slide is, in steps of the motor: its place without the play of its backlash.
+inline Position slide_of(const AxisState& motor) { return motor.position - Displacement::steps(motor.play_steps); }
+
 /// The motors whose places an axis's place needs: its own, and those that share axes with them.
 AxisSet motors_needed_for(std::size_t axis, const Kinematics& kinematics);
 

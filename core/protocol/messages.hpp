@@ -149,6 +149,7 @@ struct AxisState {
     Velocity velocity;
     Tick tick;                                  // when position and velocity were read
     std::int64_t following_error_steps = 0;     // encoder minus count, since it was homed
+    std::int64_t play_steps = 0;                // the motor's place minus its slide's, because of its backlash
     std::uint64_t command_done = 0;             // the newest AxisCommand carried out or refused
     FaultCode command_fault = FaultCode::None;  // why it was refused; None: it was carried out
     std::uint64_t config_hash = 0;              // of the configuration it runs with

@@ -23,12 +23,14 @@ std::string position_text(const KeptPosition& kept) {
     message.set_steps_per_mm(kept.scale.steps_per_mm);
     message.set_switch_position_mm(kept.scale.switch_position_mm);
     message.set_toward_min(kept.scale.toward_min);
+    message.set_backlash_steps(kept.scale.backlash_steps);
     message.set_power_up(kept.power_up);
     message.set_run(kept.run);
     message.set_count(kept.position.count());
     message.set_phase(kept.position.phase());
     message.set_zero_count(kept.zero_count);
     message.set_encoder_zero(kept.encoder_zero);
+    message.set_play_steps(kept.play_steps);
     message.set_checksum(checksum_of(message));
     std::string text;
     google::protobuf::TextFormat::PrintToString(message, &text);
@@ -46,12 +48,13 @@ std::expected<KeptPosition, std::string> position_from_text(std::string_view tex
         return std::unexpected(std::string("its checksum does not match its content: it is damaged or was edited"));
     }
     return KeptPosition{.scale = {message.machine(), message.axis(), message.steps_per_mm(),
-                                  message.switch_position_mm(), message.toward_min()},
+                                  message.switch_position_mm(), message.toward_min(), message.backlash_steps()},
                         .power_up = message.power_up(),
                         .run = message.run(),
                         .position = Position::from_count(message.count(), message.phase()),
                         .zero_count = message.zero_count(),
-                        .encoder_zero = message.encoder_zero()};
+                        .encoder_zero = message.encoder_zero(),
+                        .play_steps = message.play_steps()};
 }
 
 }  // namespace lockstep

@@ -43,6 +43,7 @@ void JobRecorder::record(Tick now, const JobEvent& event) {
                      .behind_frame = event.behind,
                      .overrides = event.overrides,
                      .start_count = {event.start_counts.begin(), event.start_counts.end()}};
+    record.start_count.insert(record.start_count.end(), event.plays.begin(), event.plays.end());
     if (event.kind == JobEvent::Kind::Begun) {
         record.config = config_;
         if (event.program) { record_program(now, event, record); }

@@ -35,11 +35,13 @@ Ticks stepping_time(const AxisMotion& motion, const PlannedStroke& first, const 
 }  // namespace
 
 std::expected<AskedPath, std::string> AskedPath::of(const MachineConfig& machine, const ProgramHead& head,
-                                                    const std::shared_ptr<const ProgramBlocks>& blocks) {
+                                                    const std::shared_ptr<const ProgramBlocks>& blocks,
+                                                    const AxisCounts& plays) {
     AskedPath asked;
     const AxisCounts start = start_counts(machine, head);
-    asked.places_ = AxisPlaces(machine);
+    asked.places_ = AxisPlaces(machine, plays);
     asked.starts_ = asked.places_.kinematics()->motors_at(start);
+    for (std::size_t m = 0; m < plays.size() && m < asked.starts_.size(); ++m) { asked.starts_.steps[m] += plays[m]; }
     while (asked.starts_.size() > moving_motor_count(machine)) { asked.starts_.steps.pop_back(); }  // the boards
     asked.strokes_.resize(asked.motors());
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
@@ -50,8 +52,8 @@ std::expected<AskedPath, std::string> AskedPath::of(const MachineConfig& machine
         asked.axes_.push_back(static_cast<std::size_t>(found - machine.axes.begin()));
     }
     asked.blocks_ = blocks;
-    const auto planned =
-        each_planned_move(machine, head, blocks, start, [&asked](const LegPlan& leg) { asked.add_first(leg); });
+    const auto planned = each_planned_move(
+        machine, head, blocks, start, [&asked](const LegPlan& leg) { asked.add_first(leg); }, plays);
     if (!planned) { return std::unexpected(planned.error().text); }
     asked.legs_ = planned->legs;
     asked.planned_ = planned->duration;

@@ -39,9 +39,11 @@ public:
     /// The path of a job without a program (homing), which commands no moves.
     AskedPath() = default;
 
-    /// Plans the program as the coordinator did. The error says why it cannot be planned.
+    /// Plans the program as the coordinator did. The error says why it cannot be planned. `plays`: of all motors where
+    /// it begins, if one has backlash; empty: 0.
     static std::expected<AskedPath, std::string> of(const MachineConfig& machine, const ProgramHead& head,
-                                                    const std::shared_ptr<const ProgramBlocks>& blocks);
+                                                    const std::shared_ptr<const ProgramBlocks>& blocks,
+                                                    const AxisCounts& plays = {});
 
     /// A motor's way from one reversal to the next, in whole steps.
     struct Stroke {

@@ -15,7 +15,8 @@ namespace lockstep::analysis {
 class AxisPlaces {
 public:
     AxisPlaces() = default;
-    explicit AxisPlaces(const MachineConfig& machine);
+    /// `plays`: of the motors where set() places them, if one has backlash; empty: 0.
+    explicit AxisPlaces(const MachineConfig& machine, const AxisCounts& plays = {});
 
     std::size_t axes() const { return mm_per_step_.size(); }
     /// Each axis is moved by a motor of its own.
@@ -42,7 +43,8 @@ private:
     std::shared_ptr<const Kinematics> kinematics_;
     bool is_direct_ = true;
     std::vector<double> mm_per_step_;              // of each axis
-    std::vector<Position> motors_;                 // unless it is direct
+    std::vector<Position> motors_;                 // their slides, unless it is direct
+    std::vector<Play> plays_;                      // of each motor
     std::vector<std::vector<std::size_t>> moved_;  // the axes that each motor moves
 };
 

@@ -27,18 +27,21 @@ std::expected<FinalPlace, std::string> final_place(const proto::AnalysisReport& 
     }
     MotorCounts counts;
     Tick last;
+    double most_play_mm = 0;
     for (const MotorConfig& motor : kinematics.moving_motors()) {
         const proto::AxisAnalysis* const found = analysis_of(analysis, motor.name);
         if (found == nullptr) { return std::unexpected("motor " + motor.name + " is not recorded"); }
         counts.steps.append(to_steps(motor, found->position_end_mm()));
         last = std::max(last, Tick{found->last_tick()});
+        most_play_mm = std::max(most_play_mm, to_mm(motor, static_cast<double>(motor.backlash.steps)));
     }
-    if (const auto astray = kinematics.astray(counts)) {
+    if (const auto astray = kinematics.astray(counts); astray && most_play_mm == 0) {
         return std::unexpected(kinematics.label(astray->motor) + " is " + fixed(std::abs(astray->off_mm), 4) +
                                " mm from where the other motors place it");
     }
     const auto steps = static_cast<double>(kinematics.axes_at(counts)[axis]);
-    return FinalPlace{to_mm(machine.axes[axis], steps), last, kinematics.rest_steps(axis)};
+    const std::int64_t off_rest = kinematics.rest_steps(axis) + to_steps(machine.axes[axis], most_play_mm);
+    return FinalPlace{to_mm(machine.axes[axis], steps), last, off_rest};
 }
 
 }  // namespace lockstep::scenario

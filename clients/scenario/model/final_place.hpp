@@ -13,7 +13,7 @@ namespace lockstep::scenario {
 struct FinalPlace {
     double mm = 0;
     Tick last;                  // the last step of its motors
-    std::int64_t off_rest = 0;  // steps of the axis by which a rest of the motors may differ from the axis's place
+    std::int64_t off_rest = 0;  // steps of the axis by which the motors may differ from the axis's place
 };
 
 /// The error says what is not on record, or which motor is not where the others place it.

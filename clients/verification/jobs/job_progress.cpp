@@ -151,7 +151,7 @@ void JobProgress::begin_epoch(const RecordedJob& record) {
     }
     if (!job_->broken.empty()) { return differ(job_->label + " continues, though " + job_->broken, job_->broken_axis); }
     const Overrides overrides{record.feed_percent, record.rapid_percent};
-    auto start = job_->replay->next();
+    auto start = job_->replay->next(record.start_count);
     if (!start) { return differ(job_->label + " continues, though its program is done"); }
     const PathPlace place = place_in(record);
     if (place.block != start->place.block || place.along != start->place.along) {
@@ -166,6 +166,8 @@ void JobProgress::begin_epoch(const RecordedJob& record) {
         events_.begin_epoch(epoch, record.coordinator);
     }
     const MotorPositions at = start->at;
+    job_->begun_at = at;
+    job_->plays = record.start_count;
     const MachineConfig& machine = job_->replay->machine();
     ProgramDevices devices = events_.devices();
     if (job_->is_in_pause || record.kind == name_of(JobKind::Jog)) { devices.pulses = {}; }
@@ -190,13 +192,23 @@ void JobProgress::take_overrides(const RecordedJob& record) {
     }
 }
 
+MotorPositions JobProgress::Job::slides_of(MotorPositions motors) const {
+    for (std::size_t m = 0; m < plays.size() && m < begun_at.size(); ++m) {
+        Play play(replay->kinematics().motors()[m].backlash);
+        play.set(plays[m]);
+        play.follow(motors[m].count() - begun_at[m].count());
+        motors[m] = motors[m] - Displacement::steps(play.steps());
+    }
+    return motors;
+}
+
 /// Compares the recorded places of a touch with those of the frames that were run.
 void JobProgress::take_probe(const RecordedJob& record) {
     if (!is_of_job(record) || job_->is_lost || !job_->replay) { return; }
     job_->is_probed = true;
     if (!epoch_ || record.outcome != "touched") { return; }
     const JobReplay& replay = *job_->replay;
-    const MotorPositions motors = epoch_->replay().positions_at({record.start_tick}, epoch_->ran());
+    const MotorPositions motors = job_->slides_of(epoch_->replay().positions_at({record.start_tick}, epoch_->ran()));
     for (std::size_t i = 0; i < replay.machine().axes.size() && i < record.start_count.size(); ++i) {
         const AxisConfig& axis = replay.machine().axes[i];
         const double mm = replay.kinematics().axis_steps(i, motors) / axis.steps_per_mm;

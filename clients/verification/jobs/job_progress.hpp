@@ -83,8 +83,13 @@ private:
         bool is_lost = false;             // records of it are missing, so its plan is not known
         std::string broken;               // why the runs are not the whole plan; empty if they are
         std::string broken_axis;
-        bool is_in_pause = false;  // it takes place in the pause of another job
-        bool is_probed = false;    // its probing move ended
+        bool is_in_pause = false;         // it takes place in the pause of another job
+        bool is_probed = false;           // its probing move ended
+        MotorPositions begun_at;          // where its last epoch began
+        std::vector<std::int64_t> plays;  // there, if a motor has backlash
+
+        /// The places of the slides on the way of that epoch, if the motors have gone on in one direction.
+        MotorPositions slides_of(MotorPositions motors) const;
     };
 
     void note_owner(const RecordedJob& record);

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/kinematics/motors.hpp"
+
 namespace lockstep::verification {
 
 JobReplay::JobReplay(const MachineConfig& machine, SharedProgram program, std::vector<Leg> legs)
@@ -13,18 +15,19 @@ JobReplay::JobReplay(const MachineConfig& machine, SharedProgram program, std::v
 
 std::expected<JobReplay, std::string> JobReplay::plan(const MachineConfig& machine, SharedProgram program,
                                                       const std::vector<std::int64_t>& start_counts) {
-    if (start_counts.size() != machine.axes.size()) {
+    const std::size_t plays = has_backlash(machine) ? motor_count(machine) : 0;
+    if (start_counts.size() != machine.axes.size() + plays) {
         return std::unexpected(std::string("it starts with another number of axes than the machine has"));
     }
     AxisCounts start;
-    for (const std::int64_t count : start_counts) { (void)start.push_back(count); }
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) { (void)start.push_back(start_counts[i]); }
     auto legs = ProgramPlanner(machine).plan(program->head(), *program, start);
     if (!legs) { return std::unexpected(legs.error().text); }
     return JobReplay(machine, std::move(program), std::move(*legs));
 }
 
 /// Skips legs without anything left to run, because the coordinator records no epoch for them.
-std::optional<EpochStart> JobReplay::next() {
+std::optional<EpochStart> JobReplay::next(const std::vector<std::int64_t>& plays) {
     for (; leg_ < legs_.size(); ++leg_, source_ = {}) {
         const Leg& leg = legs_[leg_];
         if (!leg.moves) { continue; }
@@ -32,6 +35,9 @@ std::optional<EpochStart> JobReplay::next() {
             source_ = planner_.frames(program_, leg.first, leg.from);
             place_ = {leg.first, {}};
             positions_ = positions_of(kinematics_.motors_at(leg.from).steps);
+            for (std::size_t m = 0; m < plays.size() && m < positions_.size(); ++m) {
+                positions_[m] = positions_[m] + Displacement::steps(plays[m]);
+            }
         }
         source_->resume(place_, positions_, {});
         source_->read_ahead();

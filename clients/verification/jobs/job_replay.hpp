@@ -19,15 +19,17 @@ using SharedProgram = std::shared_ptr<const analysis::RecordedProgram>;
 
 class JobReplay {
 public:
-    /// `start_counts`: one per axis of the machine. Fails if the program cannot be planned from there.
+    /// `start_counts`: one per axis of the machine, and behind them the plays if a motor has backlash. Fails if the
+    /// program cannot be planned from there.
     static std::expected<JobReplay, std::string> plan(const MachineConfig& machine, SharedProgram program,
                                                       const std::vector<std::int64_t>& start_counts);
 
     const MachineConfig& machine() const { return machine_; }
     const Kinematics& kinematics() const { return kinematics_; }
 
-    /// Returns the next epoch, or nullopt if the program is done.
-    std::optional<EpochStart> next();
+    /// Returns the next epoch, or nullopt if the program is done. `plays`: of the motors with backlash, where the epoch
+    /// begins; empty: 0.
+    std::optional<EpochStart> next(const std::vector<std::int64_t>& plays = {});
 
     /// Call it with the end of an epoch, Complete or Interrupted, and the epoch's source.
     void ended(const EpochEnd& end, OwnedSource source);

@@ -9,7 +9,12 @@ namespace lockstep {
 
 PositionScale scale_of(const MachineConfig& machine, std::size_t axis) {
     const MotorConfig config = motors_of(machine)[axis];
-    return {machine.name, config.name, config.steps_per_mm, config.homing.switch_position_mm, config.homing.toward_min};
+    return {machine.name,
+            config.name,
+            config.steps_per_mm,
+            config.homing.switch_position_mm,
+            config.homing.toward_min,
+            config.backlash.steps};
 }
 
 std::int64_t most_following_error(const MotorConfig& motor) {

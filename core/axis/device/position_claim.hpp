@@ -26,6 +26,7 @@ struct PositionScale {
     double steps_per_mm = 0;
     double switch_position_mm = 0;
     bool toward_min = true;
+    std::int64_t backlash_steps = 0;
     bool operator==(const PositionScale&) const = default;
 };
 
@@ -39,6 +40,7 @@ struct KeptPosition {
     Position position;
     std::int64_t zero_count = 0;
     std::int64_t encoder_zero = 0;  // encoder minus count, at the homing
+    std::int64_t play_steps = 0;    // the motor's place minus its slide's
     bool operator==(const KeptPosition&) const = default;
 };
 

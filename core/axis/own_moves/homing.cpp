@@ -87,14 +87,16 @@ HomingStep Homing::miss(const LocalEnd& end) {
     return ++touches_ < kMaxTouches ? search(HomingStage::Search) : fail(FaultCode::HomeSwitchUnsteady);
 }
 
-/// A motor that moves several axes may be faster than these. It parks as slowly as it searches.
+/// A motor that moves several axes may be faster than these. It parks as slowly as it searches. At the switch it pushes
+/// its slide in the direction of its homing; away from there it takes up its play first.
 HomingStep Homing::zero_and_park(const LocalEnd& end) {
     stage_ = HomingStage::Park;
     HomingStep step{.zeroed = true,
                     .zero_count = end.trigger_count - to_steps(motor_, motor_.homing.switch_position_mm)};
     const std::int64_t here = end.count - step.zero_count;
     const double speed = motor_.moves_one_axis ? motor_.max_velocity_mm_s : motor_.homing.search_velocity_mm_s;
-    step.move = LocalMove{to_steps(motor_, motor_.homing.park_mm) - here, speed, Trigger::None};
+    const std::int64_t way = to_steps(motor_, motor_.homing.park_mm) - here;
+    step.move = LocalMove{way + motor_.backlash.behind(static_cast<double>(way), 0), speed, Trigger::None};
     return step;
 }
 

@@ -7,7 +7,7 @@
 namespace lockstep {
 
 AxisPosition::AxisPosition(const MachineConfig& machine, std::size_t motor, KeptOrNot kept)
-    : scale_(scale_of(machine, motor)), kept_(std::move(kept)) {
+    : scale_(scale_of(machine, motor)), kept_(std::move(kept)), play_(motors_of(machine)[motor].backlash) {
     const MotorConfig config = motors_of(machine)[motor];
     is_board_ = config.is_board();
     most_following_error_ = most_following_error(config);
@@ -25,6 +25,7 @@ FaultCode AxisPosition::claim(const DeviceStatus& device, bool device_failed) {
     zero_count_ = kept_->zero_count;
     encoder_zero_ = kept_->encoder_zero;
     kept_run_ = kept_->run;
+    play_.begin(kept_->play_steps, device.position.count());
     homed_ = true;
     return FaultCode::None;
 }
@@ -43,6 +44,7 @@ void AxisPosition::assume_zero(std::int64_t zero_count) {
 void AxisPosition::set_zero(std::int64_t zero_count, const DeviceStatus& device) {
     zero_count_ = zero_count;
     encoder_zero_ = device.encoder_count - device.position.count();
+    play_.begin(0, device.position.count());
     homed_ = true;
     is_assumed_ = false;
 }
@@ -56,7 +58,8 @@ std::optional<KeptPosition> AxisPosition::keep(const DeviceView& device) {
     if (is_board_ || !homed_ || !device.has_ended() || kept_run_ == device.newest_run()) { return std::nullopt; }
     kept_run_ = device.newest_run();
     const DeviceStatus& status = device.status();
-    kept_ = KeptPosition{scale_, status.power_up, kept_run_, status.position, zero_count_, encoder_zero_};
+    kept_ =
+        KeptPosition{scale_, status.power_up, kept_run_, status.position, zero_count_, encoder_zero_, play_.steps()};
     return *kept_;
 }
 

@@ -9,6 +9,8 @@
 
 #include "core/axis/device/device_view.hpp"
 #include "core/axis/device/position_claim.hpp"
+#include "core/axis/state/axis_io.hpp"
+#include "core/axis/state/followed_play.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep {
@@ -32,7 +34,14 @@ public:
     FaultCode claim(const DeviceStatus& device, bool device_failed);
     void begin_homing();
     void assume_zero(std::int64_t zero_count);
+    /// The motor pushes its slide in the direction of its homing.
     void set_zero(std::int64_t zero_count, const DeviceStatus& device);
+    /// What the device has run: the play of the backlash follows.
+    void follow(const ReusedVector<ExecutedTrack>& tracks) {
+        for (const ExecutedTrack& track : tracks) { play_.follow(track); }
+    }
+    /// The motor's place minus its slide's, where the device is now.
+    std::int64_t play_steps(const DeviceStatus& device) const { return homed_ ? play_.at(device.position.count()) : 0; }
     void lose() { homed_ = is_board_ && homed_, is_assumed_ = false; }
     void lose_device();
 
@@ -61,6 +70,7 @@ private:
     std::int64_t zero_count_ = 0;
     std::int64_t encoder_zero_ = 0;  // encoder minus count, at the homing
     std::uint64_t kept_run_ = 0;     // the run after which the position was kept last
+    FollowedPlay play_;
 };
 
 }  // namespace lockstep

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/faults.hpp"
+#include "core/kinematics/axis_states.hpp"
 
 namespace lockstep {
 namespace {
@@ -111,7 +112,7 @@ AxisSet AxisRoster::present(Slot now) const {
 
 MotorCounts AxisRoster::counts() const {
     MotorCounts counts;
-    for (const AxisView& view : views_) { counts.steps.append(view.state ? view.state->position.count() : 0); }
+    for (const AxisView& view : views_) { counts.steps.append(view.state ? slide_of(*view.state).count() : 0); }
     return counts;
 }
 

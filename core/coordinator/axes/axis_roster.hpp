@@ -61,7 +61,7 @@ public:
     /// none.
     std::optional<std::size_t> stopped_by_input() const;
     AxisSet present(Slot now) const;
-    /// Positions in whole steps; 0 for a motor that is not known.
+    /// Positions of the slides in whole steps; 0 for a motor that is not known.
     MotorCounts counts() const;
 
 private:

@@ -9,13 +9,14 @@
 
 namespace lockstep::job_events {
 
-inline JobEvent begun(const MachineJob& job, const AxisCounts& start) {
+inline JobEvent begun(const MachineJob& job, const AxisCounts& start, const AxisCounts& plays) {
     return {.kind = JobEvent::Kind::Begun,
             .job = job.number,
             .job_kind = job.kind,
             .program = job.program,
             .program_id = job.program_id,
-            .start_counts = start};
+            .start_counts = start,
+            .plays = plays};
 }
 
 inline JobEvent ended(const MachineJob& job, JobOutcome outcome) {

@@ -21,7 +21,7 @@ MachineJob JobLifecycle::begin(JobKind kind, const Command& command, std::shared
                          .program_id = is_path ? std::optional(command.program) : std::nullopt,
                          .program = std::move(program),
                          .client = command.client};
-    loop.out.jobs.push_back(job_events::begun(job, start));
+    loop.out.jobs.push_back(job_events::begun(job, start, loop.plays()));
     return job;
 }
 
@@ -33,7 +33,7 @@ MachineJob JobLifecycle::begin_in_pause(JobKind kind, std::shared_ptr<const Know
                          .program_id = {},
                          .program = std::move(program),
                          .client = paused.client};
-    loop.out.jobs.push_back(job_events::begun(job, start));
+    loop.out.jobs.push_back(job_events::begun(job, start, loop.plays()));
     return job;
 }
 

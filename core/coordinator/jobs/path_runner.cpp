@@ -149,7 +149,9 @@ void PathRunner::note_start(const PathTask& task, const LoopView& loop, Coordina
                         .epoch = runner_.epoch(),
                         .start = *runner_.made().start(),
                         .place = begin.place,
-                        .overrides = begin.overrides});
+                        .overrides = begin.overrides,
+                        .start_counts = {},
+                        .plays = loop.plays()});
 }
 
 /// Reports the epoch's start as soon as its first frame can be made.

@@ -3,15 +3,23 @@
 #include <algorithm>
 
 #include "core/check.hpp"
+#include "core/kinematics/axis_states.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/protocol/rules.hpp"
 
 namespace lockstep {
 namespace {
 
+/// The slides, where the machine rests.
 MotorPositions positions_of(const LoopView& loop) {
     MotorPositions at;
-    for (std::size_t i = 0; i < loop.axes.size(); ++i) { at.append(loop.axes.state(i)->position); }
+    for (std::size_t i = 0; i < loop.axes.size(); ++i) { at.append(slide_of(*loop.axes.state(i))); }
+    return at;
+}
+
+/// The slides of motors that were at `at` and come to rest in the same direction, so that their plays do not change.
+MotorPositions slides_at(MotorPositions at, const LoopView& loop) {
+    for (std::size_t i = 0; i < at.size(); ++i) { at[i] = at[i] - Displacement::steps(loop.axes.state(i)->play_steps); }
     return at;
 }
 
@@ -71,7 +79,7 @@ std::optional<Probed> Probing::end(const PathTask& task, const EpochEnd& end, co
                                    const LoopView& loop) {
     const auto touched = runner.touched(loop.axes.views());
     if (!touched && end.kind != EpochEnd::Kind::Complete) { return std::nullopt; }
-    note(task, touched, touched ? runner.positions_at(*touched, end.ran) : end.positions, loop);
+    note(task, touched, slides_at(touched ? runner.positions_at(*touched, end.ran) : end.positions, loop), loop);
     if (!task.probe->must_touch) { return Probed{}; }
     if (!touched) { return Probed{FaultCode::ProbeNotTouched}; }
     const bool is_early = !runner.made().start() || *touched <= *runner.made().start();

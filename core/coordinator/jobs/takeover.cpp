@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/arc_path.hpp"
+#include "core/kinematics/axis_states.hpp"
 #include "core/kinematics/kinematics.hpp"
 
 namespace lockstep {
@@ -182,11 +183,15 @@ std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, cons
     if (may_have_pulses(last, program, block)) { return Doubt(TakeoverDoubt::Pulses); }
     const Kinematics kinematics(machine);
     MotorPositions positions;
-    for (const AxisView& motor : motors) { positions.append(motor.state->position); }
+    MotorPositions slides;
+    for (const AxisView& motor : motors) {
+        positions.append(motor.state->position);
+        slides.append(slide_of(*motor.state));
+    }
     Places axis_steps;
     AxisCounts at;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        axis_steps.push_back(kinematics.axis_steps(i, {positions.begin(), positions.size()}));
+        axis_steps.push_back(kinematics.axis_steps(i, {slides.begin(), slides.size()}));
         at.append(std::llround(axis_steps[i]));
     }
     JobRest rest{.first = *first,

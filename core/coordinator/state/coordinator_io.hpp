@@ -32,6 +32,7 @@ struct JobEvent {
     Overrides overrides;               // EpochBegun, Overridden
     FrameNumber behind = 0;            // Overridden: the last frame planned without these overrides
     AxisCounts start_counts;           // Begun
+    AxisCounts plays;                  // Begun, EpochBegun: of all motors; empty: none has backlash
     std::optional<ProbeResult> probe;  // Probed
 };
 

@@ -28,6 +28,13 @@ struct LoopView {
 
     /// Where the axes are, in whole steps.
     AxisCounts counts() const { return kinematics.axes_at(axes.counts()); }
+    /// The plays of all motors; none if no motor has backlash.
+    AxisCounts plays() const {
+        AxisCounts plays;
+        if (!has_backlash(machine)) { return plays; }
+        for (const AxisView& view : axes.views()) { plays.append(view.state ? view.state->play_steps : 0); }
+        return plays;
+    }
     /// How messages to people name a motor.
     std::string label_of(std::size_t motor) const { return kinematics.label(motor); }
 };

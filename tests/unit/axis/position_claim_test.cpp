@@ -53,6 +53,9 @@ TEST_F(Claim, MeansNothingWhereCountsMeanSomethingElse) {
     machine.axes[0].homing.toward_min = false;
     EXPECT_EQ(doubt(), FaultCode::PositionRescaled);
     machine = mill();
+    machine.axes[0].backlash = BacklashConfig{.mm = 0.1, .speed_mm_s = {}};
+    EXPECT_EQ(doubt(), FaultCode::PositionRescaled);
+    machine = mill();
     machine.axes[0].max_velocity_mm_s = 1;
     machine.axes[0].homing.park_mm = 9;
     EXPECT_EQ(doubt(), FaultCode::None) << "limits do not move the zero";

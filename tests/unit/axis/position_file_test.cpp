@@ -16,12 +16,13 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 KeptPosition position_after(std::uint64_t run) {
-    return {.scale = {"mill", "X", 80.1, -1.0 / 3, false},
+    return {.scale = {"mill", "X", 80.1, -1.0 / 3, false, 7},
             .power_up = 0xfedcba9876543210U,
             .run = run,
             .position = Position::from_count(-1200, 0x8000000000000001U),
             .zero_count = -400,
-            .encoder_zero = 3};
+            .encoder_zero = 3,
+            .play_steps = -2};
 }
 
 class PositionFile : public testing::Test {
