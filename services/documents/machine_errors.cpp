@@ -53,6 +53,7 @@ Problems problems_of(const MachineDraft& draft, const Text& text) {
     if (problems.empty()) { add(screw_problems(draft.machine)); }
     if (problems.empty()) { add(board_link_problems(draft.machine)); }
     if (problems.empty()) { add(kinematics_problems(draft.machine)); }
+    if (problems.empty()) { add(backlash_problems(draft.machine)); }
     if (problems.empty()) {
         add(pin_problems(draft.machine));
         add(input_problems(draft.machine));

@@ -217,6 +217,13 @@ std::vector<ScrewPoint> read_screw(const proto::Screw& message, const std::strin
     return points;
 }
 
+BacklashConfig read_backlash(const proto::Backlash& message, const std::string& place, ProtoReader& reader) {
+    BacklashConfig backlash;
+    reader.require(message.has_mm(), message.mm(), backlash.mm, place + ".mm");
+    if (message.has_speed_mm_s()) { backlash.speed_mm_s = message.speed_mm_s(); }
+    return backlash;
+}
+
 /// Both enumerations have the same numbers.
 StepMethod read_method(proto::Method method) {
     return proto::Method_IsValid(method) ? static_cast<StepMethod>(method) : StepMethod::Ranade;
@@ -243,6 +250,7 @@ MotorBlock read_motor(const proto::Motor& message, const AxisConfig& axis, const
     if (message.has_plant()) { motor.plant = read_plant(message.plant(), axis); }
     if (message.has_pins()) { motor.pins = read_pins(message.pins()); }
     motor.screw = read_screw(message.screw(), place + ".screw", reader);
+    if (message.has_backlash()) { motor.backlash = read_backlash(message.backlash(), place + ".backlash", reader); }
     return motor;
 }
 
@@ -334,6 +342,7 @@ AxisConfig read_axis(const proto::Axis& message, ProtoReader reader) {
     axis.plant = read_plant(message.plant(), axis);
     axis.pins = read_pins(message.pins());
     axis.screw = read_screw(message.screw(), "screw", reader);
+    if (message.has_backlash()) { axis.backlash = read_backlash(message.backlash(), "backlash", reader); }
     read_motors(message, axis, reader);
     return axis;
 }

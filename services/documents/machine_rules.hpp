@@ -38,6 +38,9 @@ std::vector<Problem> board_problems(const MachineConfig& machine);
 /// Checks the errors of screws, after all axes and motors were found sound.
 std::vector<Problem> screw_problems(const MachineConfig& machine);
 
+/// Checks the backlash of motors, after the kinematics were found sound.
+std::vector<Problem> backlash_problems(const MachineConfig& machine);
+
 /// Checks the boards behind links, and the motors whose devices they have, after all boards were found sound.
 std::vector<Problem> board_link_problems(const MachineConfig& machine);
 

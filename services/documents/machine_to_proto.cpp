@@ -133,6 +133,11 @@ void write_screw(const std::vector<ScrewPoint>& points, proto::Screw& message) {
     }
 }
 
+void write_backlash(const BacklashConfig& backlash, proto::Backlash& message) {
+    message.set_mm(backlash.mm);
+    if (backlash.speed_mm_s) { message.set_speed_mm_s(*backlash.speed_mm_s); }
+}
+
 /// Both enumerations have the same numbers.
 proto::Method method_to_proto(StepMethod method) { return static_cast<proto::Method>(method); }
 
@@ -150,6 +155,7 @@ void write_motor(const MotorBlock& motor, proto::Motor& message) {
     if (motor.plant) { write_plant(*motor.plant, *message.mutable_plant()); }
     if (motor.pins) { write_pins(*motor.pins, *message.mutable_pins()); }
     if (!motor.screw.empty()) { write_screw(motor.screw, *message.mutable_screw()); }
+    if (motor.backlash) { write_backlash(*motor.backlash, *message.mutable_backlash()); }
 }
 
 void write_delta(const DeltaConfig& delta, proto::Delta& message) {
@@ -235,6 +241,7 @@ void write_axis(const AxisConfig& axis, proto::Axis& message) {
     write_plant(axis.plant, *message.mutable_plant());
     if (axis.pins != PinsConfig{}) { write_pins(axis.pins, *message.mutable_pins()); }
     if (!axis.screw.empty()) { write_screw(axis.screw, *message.mutable_screw()); }
+    if (axis.backlash) { write_backlash(*axis.backlash, *message.mutable_backlash()); }
     for (const MotorBlock& motor : axis.motors) { write_motor(motor, *message.add_motor()); }
     if (axis.max_skew_mm) { message.set_max_skew_mm(*axis.max_skew_mm); }
 }
