@@ -107,6 +107,25 @@ TEST(Slide, CanBeMovedWithoutPulses) {
     EXPECT_DOUBLE_EQ(plant.position_mm(), 49.9);
 }
 
+TEST(Slide, FollowsItsMotorBehindThePlay) {
+    MotorConfig loose = axis();
+    loose.backlash = {.steps = 4, .speed_mm_s = 10, .toward_min = true};
+    Plant plant(loose, 1000);
+    std::int64_t tick = 0;
+    const auto turn = [&](int steps) {
+        for (int k = 0; k < std::abs(steps); ++k) {
+            plant.step({Tick{tick += 10'000}, static_cast<std::int8_t>(steps < 0 ? -1 : 1)});
+        }
+        return std::llround((plant.position_mm() - 50) * 80);
+    };
+    EXPECT_EQ(turn(-8), -8) << "it pushes down from the begin";
+    EXPECT_EQ(turn(4), -8) << "the motor goes through the play";
+    EXPECT_EQ(turn(10), 2);
+    EXPECT_EQ(turn(-3), 2);
+    EXPECT_EQ(turn(-3), 0);
+    EXPECT_EQ(plant.encoder(), 0) << "the encoder is the motor's";
+}
+
 TEST(Slide, LimitSwitchesCloseAMarginBeyondTheTravel) {
     Plant plant(axis(), 1000);
     plant.push(-52 * 80 + 1);
