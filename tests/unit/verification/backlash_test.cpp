@@ -75,6 +75,29 @@ TEST_F(LooseRecords, AreAnalysedWithoutDeviations) {
     EXPECT_EQ(runs, 2);
 }
 
+/// X first takes up its play.
+TEST_F(LooseRecords, HaveThePlacesOfTheSlidesAtTouches) {
+    machine.inputs = {
+        {.name = "probe", .motor = "Y", .channel = 3, .use = InputUse::Probe, .number = 0, .max_overshoot_mm = 20}};
+    {
+        RecordedMachine recorded(machine, log());
+        recorded.home();
+        recorded.begin(test::program_of(machine, kTurns));
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+        Program probe{.name = "probe.gcode", .axes = {"X", "Y"}, .start_mm = {5, 5}, .blocks = {}};
+        probe.blocks.push_back({1, Probe{.must_touch = true}});
+        probe.blocks.push_back({1, ProgramMove{.target_mm = {45, 25}, .feed_mm_s = 10}});
+        recorded.begin(probe);
+        recorded.advance_ms(1500);
+        const double x_mm = recorded.vm().device(0).plant().position_mm();
+        recorded.vm().set_input(0, true);
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+        ASSERT_TRUE(recorded.vm().state()->probe && recorded.vm().state()->probe->touched);
+        EXPECT_NEAR(recorded.vm().state()->probe->places_mm[0], x_mm, 0.05) << "the play is 0.1 mm";
+    }
+    EXPECT_FALSE(findings().difference) << to_text(findings());
+}
+
 TEST_F(LooseRecords, AnotherPlayThanTheRecordedOneIsFound) {
     {
         RecordedMachine recorded(machine, log());
