@@ -53,13 +53,15 @@ module axis_device #(
     `include "registers.vh"
     // verilator lint_on UNUSED
 
-    wire [63:0] run_request, armed, veto, stop, segment_head, capture_tail, event_tail, beat;
+    wire [63:0] run_request, armed, veto, stop, segment_head, beat;
+    wire [CAPTURE_BITS:0] capture_tail;
+    wire [EVENT_BITS:0] event_tail;
     wire [63:0] setup_request, output_head, direct_request;
     wire [63:0] setup_word, host_word;
     wire [32:0] trigger;
     wire [6:0] setup_address, direct_address;
     wire enable, setup_busy;
-    axis_host_words host_words (.clk(clk), .write(write), .write_address(write_address), .write_data(write_data),
+    axis_host_words #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS)) host_words (.clk(clk), .write(write), .write_address(write_address), .write_data(write_data),
         .read_address({read_address[13], read_address[8:3]}), .read_word(host_word),
         .setup_address(setup_busy ? setup_address : direct_address), .setup_word(setup_word),
         .run_request(run_request), .trigger(trigger), .armed(armed), .veto(veto), .stop(stop),
@@ -82,12 +84,11 @@ module axis_device #(
         .at_cut(at_cut), .at_silence(at_silence),
         .disables_at_silence(disables_at_silence), .silence_ticks(silence_ticks));
 
-    wire [63:0] now, count, run, frame, trigger_count, segment_tail, setup, phase, velocity;
+    wire [63:0] now, count, run, frame, segment_tail, setup, phase, velocity;
     wire ticks, look, inputs_busy, look_at_host, judge_host, falls_silent, is_host_silent, accelerate, travel;
     wire [INPUTS-1:0] closed;
     wire input_changes, changed_closed, events_busy;
     wire [4:0] changed_input;
-    wire [63:0] event_head, event_lost, event_word;
     axis_inputs #(.INPUTS(INPUTS)) inputs (.clk(clk), .pins(pins), .inverted(inputs_inverted), .invert(invert_inputs),
         .next_inverted(next_inputs_inverted), .set_debounce(set_debounce), .debounce_input(debounce_input),
         .debounce_ticks(debounce_ticks), .now(now[31:0]), .look(look), .busy(inputs_busy), .closed(closed),
@@ -97,16 +98,6 @@ module axis_device #(
     wire output_changes, is_analog;
     wire [4:0] changed_output;
     wire [63:0] output_value, output_detail;
-    reg notes_output;           // the event is that of an output
-    initial notes_output = 0;
-    always @(posedge clk) if (input_changes || output_changes) notes_output <= output_changes;
-    axis_events #(.ENTRY_BITS(EVENT_BITS)) events (.clk(clk), .put(input_changes || output_changes),
-        .kind(!output_changes ? 2'd0 : is_analog ? 2'd2 : 2'd1),
-        .channel(!output_changes ? changed_input : is_analog ? changed_output : 5'd0),
-        .levels(!output_changes ? {15'd0, changed_closed} : is_analog ? 16'd0 : digital), .now(now),
-        .value(notes_output && is_analog ? output_value : count),
-        .detail(!notes_output ? phase : is_analog ? output_detail : 64'd0), .busy(events_busy), .tail(event_tail),
-        .read_address(read_address[EVENT_BITS+4:3]), .read_word(event_word), .head(event_head), .lost(event_lost));
     axis_host_watch host_watch (.clk(clk), .begins(setup_taken), .look(look_at_host), .beat(beat), .tick(ticks),
         .judge(judge_host), .patience(silence_ticks), .falls_silent(falls_silent), .is_silent(is_host_silent));
 
@@ -153,8 +144,7 @@ module axis_device #(
         .rebase(rebase), .rebase_phase(rebase_phase), .phase(phase), .velocity(velocity), .idle(idle),
         .overflow(overflow), .step(engine_step), .backward(engine_backward));
 
-    wire capture_full, publish, publish_busy;
-    wire [63:0] capture_head, capture_lost, capture_sum, capture_sums, capture_word;
+    wire capture_full, triggered, publish, publish_busy;
     wire [16:0] status;
     axis_sequencer #(.INPUTS(INPUTS), .ENTRY_BITS(SEGMENT_BITS), .SETTLE_CLOCKS(SETTLE_CLOCKS)) sequencer (.clk(clk),
         .tick(tick), .busy(busy), .ticks(ticks), .first_tick(first_tick), .run_request(run_request),
@@ -177,21 +167,24 @@ module axis_device #(
         .rebase(rebase), .rebase_phase(rebase_phase), .phase(phase), .idle(idle), .overflow(overflow),
         .engine_step(engine_step), .engine_backward(engine_backward), .step(step), .forward(forward),
         .capture_full(capture_full), .publish(publish), .publish_busy(publish_busy), .now(now), .status(status),
-        .count(count), .run(run), .frame(frame), .trigger_count(trigger_count), .segment_tail(segment_tail),
+        .count(count), .run(run), .frame(frame), .triggered(triggered), .segment_tail(segment_tail),
         .setup(setup), .enabled(enabled));
-    axis_capture #(.ENTRY_BITS(CAPTURE_BITS)) capture (.clk(clk), .step(step), .forward(forward), .now(now[62:0]),
-        .tail(capture_tail), .read_entry(read_address[CAPTURE_BITS+2:3]), .read_word(capture_word),
-        .full(capture_full), .head(capture_head), .lost(capture_lost), .sum(capture_sum), .sums(capture_sums));
 
-    wire [63:0] mirror_word;
+    wire [63:0] shown_word, captured_step;
     wire is_published;
-    axis_mirror mirror (.clk(clk), .publish(publish), .hold(hold), .busy(publish_busy),
-        .read_word_number(read_address[7:3]), .read_word(mirror_word), .is_published(is_published), .now(now),
-        .status(status), .count(count), .phase(phase), .velocity(velocity), .run(run), .frame(frame),
-        .trigger_count(trigger_count), .segment_tail(segment_tail), .capture_head(capture_head),
-        .capture_lost(capture_lost), .capture_sum(capture_sum), .capture_sums(capture_sums), .setup(setup),
-        .inputs({{(32 - INPUTS){1'b0}}, closed}), .event_head(event_head), .event_lost(event_lost),
-        .outputs(digital), .output_tail(output_tail), .analog(analog));
+    wire is_event_read = read_address[19:16] == LOCKSTEP_EVENT_RING[19:16];
+    axis_record #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS)) record (.clk(clk), .busy(events_busy),
+        .step(step), .forward(forward), .capture_tail(capture_tail), .capture_full(capture_full),
+        .triggered(triggered), .put(input_changes || output_changes),
+        .kind(!output_changes ? 2'd0 : is_analog ? 2'd2 : 2'd1),
+        .channel(!output_changes ? changed_input : is_analog ? changed_output : 5'd0),
+        .levels(!output_changes ? {15'd0, changed_closed} : is_analog ? 16'd0 : digital), .value(output_value),
+        .detail(output_detail), .event_tail(event_tail), .publish(publish), .hold(hold), .publish_busy(publish_busy),
+        .is_published(is_published), .now(now), .status(status), .count(count), .phase(phase), .velocity(velocity),
+        .run(run), .frame(frame), .segment_tail(segment_tail), .setup(setup),
+        .inputs({{(32 - INPUTS){1'b0}}, closed}), .outputs(digital), .output_tail(output_tail), .analog(analog),
+        .reads_event(is_event_read), .read_event(read_address[EVENT_BITS+4:3]), .read_word_number(read_address[7:3]),
+        .read_word(shown_word), .read_entry(read_address[CAPTURE_BITS+2:3]), .read_step(captured_step));
 
     // What the host reads.
     reg [19:3] address;         // a clock later, with the memories' words
@@ -224,7 +217,7 @@ module axis_device #(
     wire is_host_word = address[19:14] == 0 && address[13] != address[12];
     always @(posedge clk) begin
         address <= read_address;
-        read_data <= address[19] ? capture_word : is_event ? event_word : is_host_word ? host_word :
-            is_device_word ? mirror_word : constant;
+        read_data <= address[19] ? captured_step : is_event || is_device_word ? shown_word : is_host_word ? host_word :
+            constant;
     end
 endmodule

@@ -1,6 +1,9 @@
 // The host's words of the register map. Those that the sequencer compares in each tick are in registers. All of them
 // are in memory, where the host reads them again and axis_setup.v reads the setup.
-module axis_host_words (
+module axis_host_words #(
+    parameter CAPTURE_BITS = 8,
+    parameter EVENT_BITS = 4
+) (
     input clk,
     input write,
     input [19:3] write_address, // of a word in the map
@@ -15,8 +18,8 @@ module axis_host_words (
     output reg [63:0] veto,
     output reg [63:0] stop,
     output reg [63:0] segment_head,
-    output reg [63:0] capture_tail,
-    output reg [63:0] event_tail,
+    output reg [CAPTURE_BITS:0] capture_tail, // low bits: entries beyond a ring's are none
+    output reg [EVENT_BITS:0] event_tail,
     output reg [63:0] beat,
     output reg enable,
     output reg [63:0] output_head,
@@ -48,8 +51,8 @@ module axis_host_words (
         LOCKSTEP_VETO: veto <= write_data;
         LOCKSTEP_STOP: stop <= write_data;
         LOCKSTEP_SEGMENT_HEAD: segment_head <= write_data;
-        LOCKSTEP_CAPTURE_TAIL: capture_tail <= write_data;
-        LOCKSTEP_EVENT_TAIL: event_tail <= write_data;
+        LOCKSTEP_CAPTURE_TAIL: capture_tail <= write_data[CAPTURE_BITS:0];
+        LOCKSTEP_EVENT_TAIL: event_tail <= write_data[EVENT_BITS:0];
         LOCKSTEP_BEAT: beat <= write_data;
         LOCKSTEP_ENABLE: enable <= write_data != 0;
         LOCKSTEP_OUTPUT_HEAD: output_head <= write_data;

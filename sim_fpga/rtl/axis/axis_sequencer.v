@@ -99,7 +99,7 @@ module axis_sequencer #(
     output reg [63:0] count,
     output reg [63:0] run,
     output reg [63:0] frame,
-    output reg [63:0] trigger_count,
+    output triggered,           // for one clock: the run ends by its trigger
     output [63:0] segment_tail,
     output reg [63:0] setup,
     output enabled              // the motor is
@@ -232,6 +232,7 @@ module axis_sequencer #(
     assign rebase = (state == ACT && begins_run && joins) || (ends && into_limit);
     assign rebase_phase = ends && into_limit ? REST_PHASE : frame_phase;
     assign halt = ends;
+    assign triggered = ends && reason[7];
     assign fetch = state == FETCH;
     assign fetch_address = {piece, fetched};
     assign load_ticks = fetch && fetched == 1;
@@ -257,7 +258,7 @@ module axis_sequencer #(
         {piece, frame_begin} = 0;
         {fetched, refused, is_enabled, enabled_for, stepped, stepped_backward, into_limit} = 0;
         {number, is_vetoed, is_armed, is_of_request, is_number, is_past, is_now, is_place, rests, is_same_phase} = 0;
-        {now, count, run, frame, trigger_count, setup} = 0;
+        {now, count, run, frame, setup} = 0;
     end
 
     // The order of work.
@@ -317,7 +318,6 @@ module axis_sequencer #(
         if (ends) begin
             motion <= AT_REST;
             run_bits <= run_bits | FINISHED | reason | (motion == TAIL ? ENDED_IN_TAIL : 16'd0);
-            if (reason[7]) trigger_count <= count;
         end else if (run_is_new && ((state == RUN && !in_motion) || (state == DECIDE && motion == AT_REST))) begin
             motion <= WAITING;
             run <= run_request;

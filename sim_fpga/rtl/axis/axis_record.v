@@ -1,0 +1,267 @@
+// What the device shows its host: the words of the map, the capture ring and the event ring. One adder counts and sums
+// all of it, and what it counts is in memory.
+//
+// It does one thing at a time: it notes a step, a trigger or an event, or publishes the words, which are all of one
+// state then. SEQUENCE is odd meanwhile. While `hold` is high, the words stay as they are: a host behind a slow link
+// then reads one consistent state, however long that takes. The rings are sim_fpga/capture_ring.hpp and
+// sim_fpga/event_ring.hpp.
+module axis_record #(
+    parameter CAPTURE_BITS = 8, // 2 to the power of it is the number of entries
+    parameter EVENT_BITS = 4
+) (
+    input clk,
+    output busy,                // a step, a trigger or an event is being noted; what they show stays as it is
+    // A step, for one clock.
+    input step,
+    input forward,
+    input [CAPTURE_BITS:0] capture_tail, // low bits of CAPTURE_TAIL
+    output capture_full,
+    // A run ends by its trigger, for one clock.
+    input triggered,
+    // An event, for one clock while it is not busy. `value` and `detail` are those of an analog output.
+    input put,
+    input [1:0] kind,           // as in WHAT
+    input [4:0] channel,
+    input [15:0] levels,
+    input [63:0] value,
+    input [63:0] detail,
+    input [EVENT_BITS:0] event_tail, // low bits of EVENT_TAIL
+    // The words are published, for one clock.
+    input publish,
+    input hold,
+    output reg publish_busy,
+    output reg is_published,    // since power-up
+    input [63:0] now,
+    input [16:0] status,
+    input [63:0] count,
+    input [63:0] phase,
+    input [63:0] velocity,
+    input [63:0] run,
+    input [63:0] frame,
+    input [63:0] segment_tail,
+    input [63:0] setup,
+    input [31:0] inputs,
+    input [15:0] outputs,
+    input [63:0] output_tail,
+    input [127:0] analog,
+    // The host reads, a clock after the address.
+    input reads_event,
+    input [EVENT_BITS+1:0] read_event,
+    input [4:0] read_word_number,
+    output reg [63:0] read_word, // of the map, or of the event ring
+    input [CAPTURE_BITS-1:0] read_entry,
+    output reg [63:0] read_step
+);
+    // The words by their numbers: those of the map from 0x0100 on, and what is put into the rings.
+    localparam [4:0] SEQUENCE = 0, NOW = 1, STATUS = 2, COUNT = 3, PHASE = 4, VELOCITY = 5, RUN = 6, FRAME = 7,
+        TRIGGER_COUNT = 8, ENCODER = 9, SEGMENT_TAIL = 10, CAPTURE_HEAD = 11, CAPTURE_LOST = 12, CAPTURE_SUM = 13,
+        CAPTURE_SUMS = 14, SETUP = 15, INPUTS = 16, OUTPUTS = 17, OUTPUT_TAIL = 18, EVENT_HEAD = 19, EVENT_LOST = 20,
+        ANALOG_LOWER = 22, ANALOG_UPPER = 23, LAST = 23, WHAT = 24, VALUE = 25, DETAIL = 26, STEP = 27, ZERO = 31;
+    localparam [3:0] REST = 0, STEP_HEAD = 1, STEP_LOST = 2, STEP_SUM = 3, STEP_SUMMED = 4, STEP_SUMS = 5, STEP_END = 6,
+        TRIGGERED = 7, NOTE_TICK = 8, NOTE_WHAT = 9, NOTE_VALUE = 10, NOTE_DETAIL = 11, OPEN = 12, OPENED = 13,
+        SHOW = 14;
+    localparam SHOWN_BITS = EVENT_BITS + 2 > 5 ? EVENT_BITS + 2 : 5;
+    reg [3:0] state, next;
+    reg asks_step, asks_trigger, asks_event;
+    reg goes_forward, was_full; // the step
+    reg [1:0] its_kind;         // the event
+    reg [4:0] its_channel;
+    reg [15:0] its_levels;
+    reg is_lost;
+    reg [4:0] number;           // the word that is published
+    reg is_closing;             // SEQUENCE becomes even
+
+    // The adder: a counted word and an addend. The sum becomes that word if `counts`.
+    (* no_rw_check *) reg [63:0] counted[0:31];
+    reg [4:0] asked, read;      // the counted word, and that of the next clock
+    reg [63:0] counted_word, addend;
+    reg counts, carry, adds;    // `adds`: `word` is the next clock's addend
+    wire [63:0] sum = counted_word + addend + {63'd0, carry};
+
+    // The word that is published, put into a ring, or added.
+    reg [4:0] select;
+    reg [63:0] word;
+    always @* case (select)
+        NOW: word = now;
+        STATUS: word = {47'd0, status};
+        COUNT, ENCODER: word = count; // there is no encoder
+        PHASE: word = phase;
+        VELOCITY: word = velocity;
+        RUN: word = run;
+        FRAME: word = frame;
+        SEGMENT_TAIL: word = segment_tail;
+        SETUP: word = setup;
+        INPUTS: word = {32'd0, inputs};
+        OUTPUTS: word = {48'd0, outputs};
+        OUTPUT_TAIL: word = output_tail;
+        ANALOG_LOWER: word = analog[63:0];
+        ANALOG_UPPER: word = analog[127:64];
+        WHAT: word = {32'd0, its_levels, 3'd0, its_channel, 6'd0, its_kind};
+        VALUE: word = value;
+        DETAIL: word = detail;
+        STEP: word = {now[62:0], goes_forward};
+        default: word = counted_word;
+    endcase
+
+    // What the host reads.
+    (* no_rw_check *) reg [63:0] shown[0:(2 << SHOWN_BITS)-1]; // the map's words, then the event ring
+    (* no_rw_check *) reg [63:0] steps[0:(1 << CAPTURE_BITS)-1];
+    reg [CAPTURE_BITS:0] steps_head; // low bits of CAPTURE_HEAD and of EVENT_HEAD
+    reg [EVENT_BITS:0] events_head;
+    reg [EVENT_BITS-1:0] entry;
+    reg shows;
+    wire is_note = state != SHOW;
+    wire [SHOWN_BITS-1:0] note = {{(SHOWN_BITS - EVENT_BITS - 2){1'b0}}, entry, state[1:0]};
+    wire [SHOWN_BITS-1:0] map_word = {{(SHOWN_BITS - 5){1'b0}}, number};
+    wire [SHOWN_BITS-1:0] read_note = {{(SHOWN_BITS - EVENT_BITS - 2){1'b0}}, read_event};
+    wire [SHOWN_BITS-1:0] read_map_word = {{(SHOWN_BITS - 5){1'b0}}, read_word_number};
+    wire [CAPTURE_BITS:0] steps_used = steps_head - capture_tail;
+    wire [EVENT_BITS:0] events_used = events_head - event_tail;
+    assign capture_full = steps_used[CAPTURE_BITS];
+    wire events_full = events_used[EVENT_BITS];
+    assign busy = asks_step || asks_trigger || asks_event || (state != REST && state < OPEN);
+
+    always @* begin
+        next = REST;
+        read = ZERO;
+        select = ZERO;
+        {counts, carry, adds, shows} = 0;
+        case (state)
+            REST: if (asks_step) begin
+                next = STEP_HEAD;
+                read = CAPTURE_HEAD;
+            end else if (asks_trigger) begin
+                next = TRIGGERED;
+                select = COUNT;
+                adds = 1;
+            end else if (asks_event) begin
+                next = NOTE_TICK;
+                read = EVENT_HEAD;
+            end else if (publish_busy) begin
+                next = OPEN;
+                read = SEQUENCE;
+            end
+            STEP_HEAD: begin
+                next = STEP_LOST;
+                counts = 1;
+                carry = !was_full;
+                read = CAPTURE_LOST;
+            end
+            STEP_LOST: begin
+                next = STEP_SUM;
+                counts = 1;
+                carry = was_full;
+                select = STEP;
+                adds = 1;
+                read = CAPTURE_SUM;
+            end
+            STEP_SUM: begin
+                next = STEP_SUMMED;
+                counts = 1;
+            end
+            STEP_SUMMED: begin
+                next = STEP_SUMS;
+                read = CAPTURE_SUM;
+            end
+            STEP_SUMS: begin
+                next = STEP_END;
+                adds = 1;
+                read = CAPTURE_SUMS;
+            end
+            STEP_END: counts = 1;
+            TRIGGERED: counts = 1;
+            NOTE_TICK: begin
+                next = NOTE_WHAT;
+                counts = 1;
+                carry = !is_lost;
+                select = NOW;
+                shows = !is_lost;
+                read = EVENT_LOST;
+            end
+            NOTE_WHAT: begin
+                next = NOTE_VALUE;
+                counts = 1;
+                carry = is_lost;
+                select = WHAT;
+                shows = !is_lost;
+            end
+            NOTE_VALUE: begin
+                next = NOTE_DETAIL;
+                select = its_kind == 2 ? VALUE : COUNT;
+                shows = !is_lost;
+            end
+            NOTE_DETAIL: begin
+                select = its_kind == 2 ? DETAIL : its_kind == 0 ? PHASE : ZERO;
+                shows = !is_lost;
+            end
+            OPEN: begin
+                next = OPENED;
+                counts = 1;
+                carry = 1;
+            end
+            OPENED: begin
+                next = SHOW;
+                read = SEQUENCE;
+            end
+            SHOW: begin
+                next = is_closing ? REST : number == LAST ? OPEN : SHOW;
+                select = number;
+                shows = 1;
+                read = number == LAST ? SEQUENCE : number + 1'b1;
+            end
+            default: ;
+        endcase
+    end
+
+    integer i;
+    initial begin
+        {state, asks_step, asks_trigger, asks_event, goes_forward, was_full, its_kind, its_channel, its_levels} = 0;
+        {is_lost, number, is_closing, asked, counted_word, addend, steps_head, events_head, entry} = 0;
+        {publish_busy, is_published} = 0;
+        for (i = 0; i < 32; i = i + 1) begin
+            counted[i] = 0;
+            shown[i] = 0;
+        end
+    end
+    wire [4:0] counts_as = state == TRIGGERED ? TRIGGER_COUNT : asked;
+    always @(posedge clk) begin
+        if (counts) counted[counts_as] <= sum;
+        counted_word <= counted[read];
+        asked <= read;
+        addend <= adds ? word : 64'd0;
+    end
+    always @(posedge clk) begin
+        if (shows) shown[{is_note, is_note ? note : map_word}] <= word;
+        read_word <= shown[{reads_event, reads_event ? read_note : read_map_word}];
+        if (step && !capture_full) steps[steps_head[CAPTURE_BITS-1:0]] <= {now[62:0], forward};
+        read_step <= steps[read_entry];
+    end
+    always @(posedge clk) begin
+        state <= next;
+        asks_step <= step || (asks_step && state != REST);
+        asks_trigger <= triggered || (asks_trigger && (state != REST || asks_step));
+        asks_event <= put || (asks_event && (state != REST || asks_step || asks_trigger));
+        if (step) begin
+            goes_forward <= forward;
+            was_full <= capture_full;
+            if (!capture_full) steps_head <= steps_head + 1'b1;
+        end
+        if (put) begin
+            its_kind <= kind;
+            its_channel <= channel;
+            its_levels <= levels;
+            is_lost <= events_full;
+            entry <= events_head[EVENT_BITS-1:0];
+            if (!events_full) events_head <= events_head + 1'b1;
+        end
+        if (publish && !hold) publish_busy <= 1;
+        if (state == SHOW) begin
+            number <= number == LAST || is_closing ? 5'd0 : number + 1'b1;
+            is_closing <= number == LAST;
+            if (is_closing) begin
+                publish_busy <= 0;
+                is_published <= 1;
+            end
+        end
+    end
+endmodule
