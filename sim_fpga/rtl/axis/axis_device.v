@@ -53,16 +53,19 @@ module axis_device #(
     `include "registers.vh"
     // verilator lint_on UNUSED
 
-    wire [63:0] run_request, armed, veto, stop, segment_head, beat;
+    wire [63:0] run_request, armed, veto, stop, beat;
+    wire [SEGMENT_BITS:0] segment_head;
+    wire [OUTPUT_BITS:0] output_head;
     wire [CAPTURE_BITS:0] capture_tail;
     wire [EVENT_BITS:0] event_tail;
-    wire [63:0] setup_request, output_head, direct_request;
+    wire [63:0] setup_request, direct_request;
     wire [63:0] setup_word, host_word;
     wire [32:0] trigger;
     wire [6:0] setup_address, direct_address;
     wire enable, setup_busy;
-    axis_host_words #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS)) host_words (.clk(clk), .write(write), .write_address(write_address), .write_data(write_data),
-        .read_address({read_address[13], read_address[8:3]}), .read_word(host_word),
+    axis_host_words #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS), .SEGMENT_BITS(SEGMENT_BITS),
+        .OUTPUT_BITS(OUTPUT_BITS)) host_words (.clk(clk), .write(write), .write_address(write_address),
+        .write_data(write_data), .read_address({read_address[13], read_address[8:3]}), .read_word(host_word),
         .setup_address(setup_busy ? setup_address : direct_address), .setup_word(setup_word),
         .run_request(run_request), .trigger(trigger), .armed(armed), .veto(veto), .stop(stop),
         .segment_head(segment_head), .capture_tail(capture_tail), .event_tail(event_tail), .beat(beat), .enable(enable),
@@ -84,7 +87,8 @@ module axis_device #(
         .at_cut(at_cut), .at_silence(at_silence),
         .disables_at_silence(disables_at_silence), .silence_ticks(silence_ticks));
 
-    wire [63:0] now, count, run, frame, segment_tail, setup, phase, velocity;
+    wire [63:0] now, count, run, frame, setup, phase, velocity;
+    wire [SEGMENT_BITS:0] segment_tail;
     wire ticks, look, inputs_busy, look_at_host, judge_host, falls_silent, is_host_silent, accelerate, travel;
     wire [INPUTS-1:0] closed;
     wire input_changes, changed_closed, events_busy;
@@ -97,13 +101,17 @@ module axis_device #(
     // Inputs and outputs never change in the same clock, because one is looked at after the other.
     wire output_changes, is_analog;
     wire [4:0] changed_output;
-    wire [63:0] output_value, output_detail;
+    wire keeps_value;
+    wire [63:0] output_value, output_slope;
+    wire [ANALOG-1:0] slides;
+    wire [7:0] is_zero;
     axis_host_watch host_watch (.clk(clk), .begins(setup_taken), .look(look_at_host), .beat(beat), .tick(ticks),
         .judge(judge_host), .patience(silence_ticks), .falls_silent(falls_silent), .is_silent(is_host_silent));
 
     wire fetch, drop_own, drop_others, take, frame_settled, frame_valid, frame_good, frame_is_last, frame_is_of_run;
     wire [SEGMENT_BITS+1:0] fetch_address, scan_address;
-    wire [63:0] piece_word, frame_at, frame_start, frame_phase;
+    wire [SEGMENT_BITS:0] frame_at;
+    wire [63:0] piece_word, frame_start, frame_phase;
     wire [31:0] frame_number, frame_count;
     wire [15:0] frame_body_pieces, frame_tail_pieces;
     wire is_segment_write = write && write_address[19:17] == LOCKSTEP_SEGMENT_RING[19:17];
@@ -119,23 +127,25 @@ module axis_device #(
     wire direct_outputs, due_outputs, silence_outputs, end_outputs, is_cut, begins_body, begins_tail, rests, in_motion;
     wire outputs_busy, outputs_settled, outputs_well, reads_output;
     wire [OUTPUT_BITS+1:0] output_address;
-    wire [63:0] output_word, output_tail, first_output, behind_outputs;
+    wire [63:0] output_word;
+    wire [OUTPUT_BITS:0] output_tail, first_output, behind_outputs;
+    wire changes_run;
     wire is_output_write = write && write_address[19:16] == LOCKSTEP_OUTPUT_RING[19:16];
     axis_output_ring #(.ENTRY_BITS(OUTPUT_BITS), .DIGITAL(DIGITAL), .ANALOG(ANALOG)) output_ring (.clk(clk),
         .write(is_output_write), .write_address(write_address[OUTPUT_BITS+4:3]), .write_data(write_data),
-        .head(output_head), .run(run[23:0]), .frame(frame[31:0]), .rests(rests), .in_motion(in_motion),
+        .head(output_head), .run(run[23:0]), .frame(frame[31:0]), .restart(changes_run), .rests(rests), .in_motion(in_motion),
         .drop_own(drop_own), .take(begins_body), .settled(outputs_settled), .is_well(outputs_well),
         .tail(output_tail), .first(first_output), .behind(behind_outputs), .reads(reads_output),
         .read_address(output_address), .word(output_word));
     axis_outputs #(.ENTRY_BITS(OUTPUT_BITS), .DIGITAL(DIGITAL), .ANALOG(ANALOG)) outputs (.clk(clk),
         .direct(direct_outputs), .due(due_outputs), .begin_body(begins_body), .is_well(outputs_well),
         .begin_tail(begins_tail), .end_run(end_outputs), .is_cut(is_cut), .silence(silence_outputs), .tick(ticks),
-        .busy(outputs_busy), .is_host_silent(is_host_silent), .now(now), .at_cut(at_cut), .at_silence(at_silence),
+        .busy(outputs_busy), .is_host_silent(is_host_silent), .at_cut(at_cut), .at_silence(at_silence),
         .direct_request(direct_request), .word_address(direct_address), .host_word(setup_word), .run(run[23:0]),
         .frame(frame[31:0]), .first(first_output), .behind(behind_outputs), .reads(reads_output),
         .read_address(output_address), .word(output_word), .put(output_changes), .is_analog(is_analog),
-        .channel(changed_output), .value(output_value), .detail(output_detail), .events_busy(events_busy),
-        .levels(digital), .analog(analog));
+        .channel(changed_output), .keeps(keeps_value), .value(output_value), .slope(output_slope),
+        .events_busy(events_busy), .levels(digital), .slides(slides), .is_zero(is_zero));
 
     wire load_ticks, load_velocity, load_acceleration, halt, rebase, idle, overflow, engine_step, engine_backward;
     wire [63:0] rebase_phase;
@@ -155,7 +165,7 @@ module axis_device #(
         .inputs_busy(inputs_busy), .closed(closed), .look_at_host(look_at_host), .judge_host(judge_host),
         .falls_silent(falls_silent), .is_host_silent(is_host_silent), .direct_outputs(direct_outputs),
         .due_outputs(due_outputs), .silence_outputs(silence_outputs), .end_outputs(end_outputs), .is_cut(is_cut),
-        .begins_body(begins_body), .begins_tail(begins_tail), .outputs_busy(outputs_busy),
+        .begins_body(begins_body), .begins_tail(begins_tail), .changes_run(changes_run), .outputs_busy(outputs_busy),
         .outputs_settled(outputs_settled), .outputs_well(outputs_well), .at_rest(rests), .in_motion(in_motion),
         .drop_own(drop_own), .drop_others(drop_others), .take(take),
         .frame_settled(frame_settled), .frame_valid(frame_valid), .frame_good(frame_good), .frame_at(frame_at),
@@ -173,16 +183,17 @@ module axis_device #(
     wire [63:0] shown_word, captured_step;
     wire is_published;
     wire is_event_read = read_address[19:16] == LOCKSTEP_EVENT_RING[19:16];
-    axis_record #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS)) record (.clk(clk), .busy(events_busy),
+    axis_record #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS), .SEGMENT_BITS(SEGMENT_BITS),
+        .OUTPUT_BITS(OUTPUT_BITS), .ANALOG(ANALOG)) record (.clk(clk), .busy(events_busy),
         .step(step), .forward(forward), .capture_tail(capture_tail), .capture_full(capture_full),
         .triggered(triggered), .put(input_changes || output_changes),
         .kind(!output_changes ? 2'd0 : is_analog ? 2'd2 : 2'd1),
         .channel(!output_changes ? changed_input : is_analog ? changed_output : 5'd0),
-        .levels(!output_changes ? {15'd0, changed_closed} : is_analog ? 16'd0 : digital), .value(output_value),
-        .detail(output_detail), .event_tail(event_tail), .publish(publish), .hold(hold), .publish_busy(publish_busy),
+        .levels(!output_changes ? {15'd0, changed_closed} : is_analog ? 16'd0 : digital), .keeps(keeps_value),
+        .value(output_value), .slope(output_slope), .tick(ticks), .slides(slides), .is_zero(is_zero), .analog(analog), .event_tail(event_tail), .publish(publish), .hold(hold), .publish_busy(publish_busy),
         .is_published(is_published), .now(now), .status(status), .count(count), .phase(phase), .velocity(velocity),
         .run(run), .frame(frame), .segment_tail(segment_tail), .setup(setup),
-        .inputs({{(32 - INPUTS){1'b0}}, closed}), .outputs(digital), .output_tail(output_tail), .analog(analog),
+        .inputs({{(32 - INPUTS){1'b0}}, closed}), .outputs(digital), .output_tail(output_tail),
         .reads_event(is_event_read), .read_event(read_address[EVENT_BITS+4:3]), .read_word_number(read_address[7:3]),
         .read_word(shown_word), .read_entry(read_address[CAPTURE_BITS+2:3]), .read_step(captured_step));
 

@@ -9,7 +9,7 @@ module axis_frame_scanner #(
     parameter MOST_PIECES = 274 // of a frame
 ) (
     input clk,
-    input [63:0] head,          // SEGMENT_HEAD
+    input [ENTRY_BITS:0] head,  // low bits of SEGMENT_HEAD
     input [23:0] run,           // low bits of a run
     input drop_own,             // takes frames of the run off the ring
     input drop_others,          // takes frames of other runs off the ring
@@ -21,7 +21,7 @@ module axis_frame_scanner #(
     output settled,             // nothing of what follows changes until the host or the sequencer acts
     output valid,               // there is a frame
     output good,                // it is whole and can be run
-    output reg [63:0] taken,    // entries taken off the ring since power-up: where the frame begins
+    output reg [ENTRY_BITS:0] taken, // low bits of the entries taken off the ring: where the frame begins
     output is_last,
     output is_of_run,
     output reg [31:0] number,
@@ -38,17 +38,17 @@ module axis_frame_scanner #(
     reg is_header, is_last_frame, is_well;
     reg [23:0] tag_run;
 
-    reg [63:0] loaded;          // entries in the ring, a clock later
-    wire is_most = loaded[63:ENTRY_BITS] == 1 && loaded[ENTRY_BITS-1:0] == 0; // the ring is full
-    wire is_loaded = loaded != 0 && (is_most || loaded[63:ENTRY_BITS] == 0);
+    reg [ENTRY_BITS:0] loaded;  // entries in the ring, a clock later
+    wire is_loaded = loaded != 0 && (!loaded[ENTRY_BITS] || loaded[ENTRY_BITS-1:0] == 0);
     wire [16:0] pieces = {1'b0, body_pieces} + {1'b0, tail_pieces};
-    wire is_whole = loaded[63:17] != 0 || pieces < loaded[16:0];
+    wire is_whole = pieces < {{(16 - ENTRY_BITS){1'b0}}, loaded};
     wire is_found = state == CHECK || state == KNOWN;
     wire is_possible = body_pieces != 0 && pieces <= MOST_PIECES;
     wire drops = is_found && is_loaded && (is_of_run ? drop_own : drop_others);
     wire waits = state == CHECK && is_possible && !is_whole; // for the rest of the frame
     wire is_piece = !word[0] && word[39:8] != 0 && word[63:40] == 0;
 
+    wire [ENTRY_BITS:0] behind = taken + pieces[ENTRY_BITS:0] + 1'b1;
     wire [ENTRY_BITS-1:0] piece = taken[ENTRY_BITS-1:0] + at[ENTRY_BITS-1:0];
     assign address = state == CHECK ? {piece, 2'd0} : {taken[ENTRY_BITS-1:0], at[1:0]};
     assign is_of_run = is_header && tag_run == run;
@@ -98,11 +98,11 @@ module axis_frame_scanner #(
             default: ;
         endcase
         if (take) begin
-            taken <= taken + 1'b1 + {47'd0, pieces};
+            taken <= behind;
             at <= 0;
             state <= LOOK;
         end else if (drops) begin
-            taken <= !is_header ? taken + 1'b1 : is_whole ? taken + 1'b1 + {47'd0, pieces} : head;
+            taken <= !is_header ? taken + 1'b1 : is_whole ? behind : head;
             at <= 0;
             state <= LOOK;
         end

@@ -2,7 +2,9 @@
 // are in memory, where the host reads them again and axis_setup.v reads the setup.
 module axis_host_words #(
     parameter CAPTURE_BITS = 8,
-    parameter EVENT_BITS = 4
+    parameter EVENT_BITS = 4,
+    parameter SEGMENT_BITS = 8,
+    parameter OUTPUT_BITS = 5
 ) (
     input clk,
     input write,
@@ -17,12 +19,13 @@ module axis_host_words #(
     output reg [63:0] armed,
     output reg [63:0] veto,
     output reg [63:0] stop,
-    output reg [63:0] segment_head,
-    output reg [CAPTURE_BITS:0] capture_tail, // low bits: entries beyond a ring's are none
+    // Of the rings' heads and tails the low bits, for there are no more entries than the ring has.
+    output reg [SEGMENT_BITS:0] segment_head,
+    output reg [CAPTURE_BITS:0] capture_tail,
     output reg [EVENT_BITS:0] event_tail,
     output reg [63:0] beat,
     output reg enable,
-    output reg [63:0] output_head,
+    output reg [OUTPUT_BITS:0] output_head,
     output reg [63:0] direct_request,
     output reg [63:0] setup_request
 );
@@ -50,12 +53,12 @@ module axis_host_words #(
         LOCKSTEP_ARMED: armed <= write_data;
         LOCKSTEP_VETO: veto <= write_data;
         LOCKSTEP_STOP: stop <= write_data;
-        LOCKSTEP_SEGMENT_HEAD: segment_head <= write_data;
+        LOCKSTEP_SEGMENT_HEAD: segment_head <= write_data[SEGMENT_BITS:0];
         LOCKSTEP_CAPTURE_TAIL: capture_tail <= write_data[CAPTURE_BITS:0];
         LOCKSTEP_EVENT_TAIL: event_tail <= write_data[EVENT_BITS:0];
         LOCKSTEP_BEAT: beat <= write_data;
         LOCKSTEP_ENABLE: enable <= write_data != 0;
-        LOCKSTEP_OUTPUT_HEAD: output_head <= write_data;
+        LOCKSTEP_OUTPUT_HEAD: output_head <= write_data[OUTPUT_BITS:0];
         LOCKSTEP_DIRECT_REQUEST: direct_request <= write_data;
         LOCKSTEP_SETUP_REQUEST: setup_request <= write_data;
         default: ;

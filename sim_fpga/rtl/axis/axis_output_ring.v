@@ -12,30 +12,30 @@ module axis_output_ring #(
     input write,
     input [ENTRY_BITS+1:0] write_address, // {entry, word}
     input [63:0] write_data,
-    input [63:0] head,          // OUTPUT_HEAD
+    input [ENTRY_BITS:0] head,  // low bits of OUTPUT_HEAD
     // The sequencer.
     input [23:0] run,           // low bits of the run
     input [31:0] frame,         // the present frame
+    input restart,              // for one clock: a run begins or ends
     input rests,                // no run is in progress
     input in_motion,
     input drop_own,             // takes entries of the run off the ring
     input take,                 // for one clock: the next frame begins
     output settled,             // nothing of what follows changes until the host or the sequencer acts
     output reg is_well,         // the outputs of the next frame can be made
-    output [63:0] tail,         // OUTPUT_TAIL
-    output reg [63:0] first,    // entries of the present frame are from here on
-    output reg [63:0] behind,   // and before here
+    output [ENTRY_BITS:0] tail, // low bits of OUTPUT_TAIL
+    output reg [ENTRY_BITS:0] first, // entries of the present frame are from here on
+    output reg [ENTRY_BITS:0] behind, // and before here
     // The reader of the present frame.
     input reads,                // the memory shows its word in the next clock
     input [ENTRY_BITS+1:0] read_address,
     output [63:0] word
 );
     localparam LOOK = 0, TAG = 1, AT = 2, VALUE = 3, STOP = 4;
-    localparam [63:0] ENTRIES = 64'd1 << ENTRY_BITS;
     reg [2:0] state;
     reg asked;                  // the memory shows the word
-    reg [63:0] at;              // the entry
-    reg [63:0] its_first;       // of the next frame
+    reg [ENTRY_BITS:0] at;      // the entry
+    reg [ENTRY_BITS:0] its_first; // of the next frame
     reg is_found;
     reg is_tail;                // of the frame
     reg [1:0] kind;
@@ -46,13 +46,8 @@ module axis_output_ring #(
     axis_ring_memory #(.ENTRY_BITS(ENTRY_BITS)) entries (.clk(clk), .write(write), .write_address(write_address),
         .write_data(write_data), .read_address(reads ? read_address : {at[ENTRY_BITS-1:0], number}), .word(word));
 
-    // What is looked for. If it changes, the search begins again.
-    reg [23:0] its_run;
-    reg [31:0] its_frame;
-    reg rested;
-    wire changes = its_run != run || its_frame != frame || rested != rests;
-    wire [63:0] loaded = head - at;
-    wire is_empty = loaded == 0 || loaded > ENTRIES;
+    wire [ENTRY_BITS:0] loaded = head - at;
+    wire is_empty = loaded == 0 || (loaded[ENTRY_BITS] && loaded[ENTRY_BITS-1:0] != 0);
     wire of_run = word[31:8] == run;
     wire [31:0] ahead = word[63:32] - frame - 1'b1;
     wire is_of_frame = of_run && ahead == 0;
@@ -61,17 +56,16 @@ module axis_output_ring #(
     wire is_in_order = word[63:43] == 0 && word[42:0] != 0 && word[42:0] <= 43'h40000000000 && word[42:0] >= last;
     wire has_room = is_tail ? in_tail != MOST_IN_TAIL : in_body != MOST_IN_BODY;
     wire is_possible = kind == 0 ? word[31:16] >> DIGITAL == 0 : kind == 1 && {29'd0, channel} < ANALOG;
-    assign settled = !changes && !take && (is_empty || state == STOP);
+    assign settled = !restart && !take && (is_empty || state == STOP);
     assign tail = in_motion ? first : behind;
 
     initial begin
         {state, asked, at, its_first, is_found, is_tail, kind, channel, last_in_body, last_in_tail, first, behind} = 0;
-        {its_run, its_frame, rested, in_body, in_tail} = 0;
+        {in_body, in_tail} = 0;
         is_well = 1;
     end
     always @(posedge clk) begin
         asked <= !asked && !reads && state != STOP;
-        {its_run, its_frame, rested} <= {run, frame, rests};
         case (state)
             LOOK: begin
                 asked <= 0;
@@ -113,7 +107,7 @@ module axis_output_ring #(
             first <= is_found ? its_first : at;
             behind <= at;
         end
-        if (take || changes) begin
+        if (take || restart) begin
             at <= take ? at : behind;
             state <= LOOK;
             asked <= 0;

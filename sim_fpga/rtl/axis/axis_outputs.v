@@ -20,7 +20,6 @@ module axis_outputs #(
     input tick,
     output busy,                // from the clock after on
     input is_host_silent,
-    input [63:0] now,
     // The setup.
     input [39:0] at_cut,
     input [39:0] at_silence,
@@ -31,8 +30,8 @@ module axis_outputs #(
     // The ring's entries of the present frame.
     input [23:0] run,
     input [31:0] frame,
-    input [63:0] first,
-    input [63:0] behind,
+    input [ENTRY_BITS:0] first,
+    input [ENTRY_BITS:0] behind,
     output reads,
     output [ENTRY_BITS+1:0] read_address,
     input [63:0] word,
@@ -40,12 +39,14 @@ module axis_outputs #(
     output put,
     output reg is_analog,
     output reg [4:0] channel,
+    output keeps,               // the analog output keeps its value; else it gets this one
     output [63:0] value,
-    output [63:0] detail,
+    output [63:0] slope,
     input events_busy,
     // What the outputs show.
     output reg [15:0] levels,
-    output [127:0] analog   // 16 bits each, of 2^-15 of full scale
+    output [ANALOG-1:0] slides, // analog outputs with a slope
+    input [7:0] is_zero         // analog outputs that were given 0
 );
     localparam REST = 0, DIRECT = 1, CHANNEL = 2, CHANNEL_WORD = 3, NEXT = 4, TAG = 5, AT = 6, VALUE = 7, SLOPE = 8,
         DIGITAL_CHANGE = 9, ANALOG_CHANGE = 10, NOTE = 11, NOTED = 12, END = 13, SAFE_CHANNEL = 14;
@@ -58,15 +59,15 @@ module axis_outputs #(
     reg is_safe_asked;
     reg [7:0] mask;             // the analog outputs that change
     // The list of changes.
-    reg is_active, in_tail, is_due_known, is_usable, begins;
-    reg [63:0] at, start, due_at;
+    reg is_active, in_tail, is_known, is_usable, begins; // `is_known`: the entry is one of the present list
+    reg [ENTRY_BITS:0] at;
+    reg [42:0] since;           // ticks after the start of the body or the tail
     reg [1:0] kind;
     reg [2:0] due_channel;
     reg [63:0] new_value, new_slope;
     // The outputs.
-    reg [62:0] values[0:7];
-    reg [63:0] slopes[0:7];
-    reg [7:0] is_off;           // it began at 0, and does not rise
+    reg [7:0] has_slope;
+    wire [7:0] is_off = is_zero & ~has_slope;
 
     wire [15:0] changed_levels = (levels & ~new_value[31:16]) | (new_value[15:0] & new_value[31:16]);
     wire [62:0] clamped = new_value[63] ? 63'd0 : new_value[62] ? FULL : new_value[62:0];
@@ -78,31 +79,16 @@ module axis_outputs #(
     assign reads = (state == TAG || state == AT || state == VALUE || state == SLOPE) && !asked;
     assign read_address = {at[ENTRY_BITS-1:0], number};
     assign put = state == NOTE && !events_busy;
-    assign value = {1'b0, values[channel[2:0]]};
-    assign detail = slopes[channel[2:0]];
+    assign keeps = is_analog && back == END;
+    assign value = {1'b0, clamped};
+    assign slope = new_slope;
+    assign slides = has_slope[ANALOG-1:0];
     wire is_this = word[31:8] == run && word[63:32] == frame && word[0] == in_tail;
 
-    // A value a tick later.
-    function [62:0] later(input [62:0] from, input [63:0] by);
-        reg [64:0] sum;
-        begin
-            sum = {2'd0, from} + {by[63], by};
-            later = sum[64] ? 63'd0 : sum[63] || sum[62:0] > FULL ? FULL : sum[62:0];
-        end
-    endfunction
-    genvar n;
-    generate for (n = 0; n < 8; n = n + 1) begin : channels
-        assign analog[16*n +: 16] = values[n][62:47];
-    end endgenerate
-    integer i;
     initial begin
-        {state, back, asked, request, safe, is_safe_asked, mask, is_active, in_tail, is_due_known, at, start} = 0;
-        {is_usable, begins, due_at, kind, due_channel, new_value, new_slope, levels, is_analog, channel} = 0;
-        is_off = 8'hff;
-        for (i = 0; i < 8; i = i + 1) begin
-            values[i] = 0;
-            slopes[i] = 0;
-        end
+        {state, back, asked, request, safe, is_safe_asked, mask, is_active, in_tail, is_known, at, since} = 0;
+        {is_usable, begins, kind, due_channel, new_value, new_slope, levels, is_analog, channel} = 0;
+        has_slope = 0;
     end
     always @(posedge clk) begin
         asked <= busy && !asked && state != NEXT;
@@ -142,23 +128,14 @@ module axis_outputs #(
                 state <= ANALOG_CHANGE;
             end
             // The changes of the frame.
-            NEXT: begin
-                if (is_due_known ? $signed(due_at) > $signed(now) : at == behind) state <= REST;
-                else state <= is_due_known ? VALUE : TAG;
-            end
+            NEXT: state <= is_known ? AT : at == behind ? REST : TAG;
             TAG: if (asked) begin
                 {due_channel, kind} <= word[5:1];
-                if (is_this) state <= AT;
-                else begin
-                    at <= at + 1'b1;
-                    state <= NEXT;
-                end
-            end
-            AT: if (asked) begin
-                due_at <= start + word;
-                is_due_known <= 1;
+                is_known <= is_this;
+                if (!is_this) at <= at + 1'b1;
                 state <= NEXT;
             end
+            AT: if (asked) state <= word[42:0] > since ? REST : VALUE;
             VALUE: if (asked) begin
                 new_value <= word;
                 state <= SLOPE;
@@ -167,7 +144,7 @@ module axis_outputs #(
                 new_slope <= word;
                 channel <= {2'd0, due_channel};
                 at <= at + 1'b1;
-                is_due_known <= 0;
+                is_known <= 0;
                 back <= NEXT;
                 state <= kind == 0 ? DIGITAL_CHANGE : ANALOG_CHANGE;
             end
@@ -179,9 +156,7 @@ module axis_outputs #(
                 asked <= 0;
             end
             ANALOG_CHANGE: begin
-                values[channel[2:0]] <= clamped;
-                slopes[channel[2:0]] <= new_slope;
-                is_off[channel[2:0]] <= clamped == 0 && new_slope == 0;
+                has_slope[channel[2:0]] <= new_slope != 0;
                 is_analog <= 1;
                 state <= NOTE;
             end
@@ -200,8 +175,7 @@ module axis_outputs #(
                     new_value <= {32'd0, safe[31:0]};
                     back <= SAFE_CHANNEL;
                     state <= is_safe_asked ? DIGITAL_CHANGE : REST;
-                end else if (slopes[channel[2:0]] != 0) begin
-                    new_value <= {1'b0, values[channel[2:0]]};
+                end else if (has_slope[channel[2:0]]) begin
                     new_slope <= 0;
                     back <= END;
                     state <= ANALOG_CHANGE;
@@ -221,14 +195,12 @@ module axis_outputs #(
         if (begin_body) is_usable <= is_well;
         if (begin_body || begin_tail) begin
             in_tail <= begin_tail;
-            start <= now;
-        end
+            since <= 0;
+        end else if (tick) since <= since + 1'b1;
         if (begins) begin
             is_active <= is_usable && !is_host_silent;
-            is_due_known <= 0;
+            is_known <= 0;
             at <= first;
         end
-        if (tick) for (i = 0; i < ANALOG; i = i + 1)
-            values[i] <= later(values[i], slopes[i]);
     end
 endmodule

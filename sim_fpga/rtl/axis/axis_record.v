@@ -1,16 +1,19 @@
 // What the device shows its host: the words of the map, the capture ring and the event ring. One adder counts and sums
 // all of it, and what it counts is in memory.
 //
-// It does one thing at a time: it notes a step, a trigger or an event, or publishes the words, which are all of one
-// state then. SEQUENCE is odd meanwhile. While `hold` is high, the words stay as they are: a host behind a slow link
+// It does one thing at a time: it notes a step, a trigger or an event, moves the analog outputs by their slopes, or
+// publishes the words, which are all of one state then. SEQUENCE is odd meanwhile. While `hold` is high, the words stay as they are: a host behind a slow link
 // then reads one consistent state, however long that takes. The rings are sim_fpga/capture_ring.hpp and
 // sim_fpga/event_ring.hpp.
 module axis_record #(
     parameter CAPTURE_BITS = 8, // 2 to the power of it is the number of entries
-    parameter EVENT_BITS = 4
+    parameter EVENT_BITS = 4,
+    parameter SEGMENT_BITS = 8,
+    parameter OUTPUT_BITS = 5,
+    parameter ANALOG = 2        // at most 8
 ) (
     input clk,
-    output busy,                // a step, a trigger or an event is being noted; what they show stays as it is
+    output busy,                // something is being noted or moved; what is shown stays as it is
     // A step, for one clock.
     input step,
     input forward,
@@ -18,14 +21,20 @@ module axis_record #(
     output capture_full,
     // A run ends by its trigger, for one clock.
     input triggered,
-    // An event, for one clock while it is not busy. `value` and `detail` are those of an analog output.
+    // An event, for one clock while it is not busy. That of an analog output gives it this value and this slope.
     input put,
+    input keeps,                // the analog output keeps its value
     input [1:0] kind,           // as in WHAT
     input [4:0] channel,
     input [15:0] levels,
     input [63:0] value,
-    input [63:0] detail,
+    input [63:0] slope,
     input [EVENT_BITS:0] event_tail, // low bits of EVENT_TAIL
+    // A tick, for one clock.
+    input tick,
+    input [ANALOG-1:0] slides,  // the analog outputs with a slope
+    output reg [7:0] is_zero,   // the analog output was given 0
+    output reg [127:0] analog,  // what they show: 16 bits each, of 2^-15 of full scale
     // The words are published, for one clock.
     input publish,
     input hold,
@@ -38,12 +47,11 @@ module axis_record #(
     input [63:0] velocity,
     input [63:0] run,
     input [63:0] frame,
-    input [63:0] segment_tail,
+    input [SEGMENT_BITS:0] segment_tail, // low bits
     input [63:0] setup,
     input [31:0] inputs,
     input [15:0] outputs,
-    input [63:0] output_tail,
-    input [127:0] analog,
+    input [OUTPUT_BITS:0] output_tail,
     // The host reads, a clock after the address.
     input reads_event,
     input [EVENT_BITS+1:0] read_event,
@@ -52,34 +60,46 @@ module axis_record #(
     input [CAPTURE_BITS-1:0] read_entry,
     output reg [63:0] read_step
 );
-    // The words by their numbers: those of the map from 0x0100 on, and what is put into the rings.
-    localparam [4:0] SEQUENCE = 0, NOW = 1, STATUS = 2, COUNT = 3, PHASE = 4, VELOCITY = 5, RUN = 6, FRAME = 7,
+    // The words by their numbers: those of the map from 0x0100 on, the others that are put into the rings, and what the
+    // analog outputs have.
+    localparam [5:0] SEQUENCE = 0, NOW = 1, STATUS = 2, COUNT = 3, PHASE = 4, VELOCITY = 5, RUN = 6, FRAME = 7,
         TRIGGER_COUNT = 8, ENCODER = 9, SEGMENT_TAIL = 10, CAPTURE_HEAD = 11, CAPTURE_LOST = 12, CAPTURE_SUM = 13,
         CAPTURE_SUMS = 14, SETUP = 15, INPUTS = 16, OUTPUTS = 17, OUTPUT_TAIL = 18, EVENT_HEAD = 19, EVENT_LOST = 20,
-        ANALOG_LOWER = 22, ANALOG_UPPER = 23, LAST = 23, WHAT = 24, VALUE = 25, DETAIL = 26, STEP = 27, ZERO = 31;
-    localparam [3:0] REST = 0, STEP_HEAD = 1, STEP_LOST = 2, STEP_SUM = 3, STEP_SUMMED = 4, STEP_SUMS = 5, STEP_END = 6,
-        TRIGGERED = 7, NOTE_TICK = 8, NOTE_WHAT = 9, NOTE_VALUE = 10, NOTE_DETAIL = 11, OPEN = 12, OPENED = 13,
-        SHOW = 14;
+        ANALOG_LOWER = 22, ANALOG_UPPER = 23, LAST = 23, WHAT = 24, NEW_VALUE = 25, NEW_SLOPE = 26, STEP = 27,
+        SEGMENTS_TAKEN = 28, OUTPUTS_TAKEN = 29, ZERO = 31;
+    localparam [1:0] VALUES = 2, SLOPES = 3; // {one of them, 1'b0, output}
+    localparam [4:0] REST = 0, STEP_HEAD = 1, STEP_LOST = 2, STEP_SUM = 3, STEP_SUMMED = 4, STEP_SUMS = 5, STEP_END = 6,
+        TRIGGERED = 7, NOTE_TICK = 8, NOTE_WHAT = 9, NOTE_VALUE = 10, NOTE_DETAIL = 11, NOTE_SLOPE = 12, SLIDE = 13,
+        SLIDE_SLOPE = 14, SLIDE_VALUE = 15, OPEN = 16, OPENED = 17, TAKE_SEGMENTS = 18, SEGMENTS_TAKE = 19,
+        TAKE_OUTPUTS = 20, OUTPUTS_TAKE = 21, BEGIN = 22, SHOW = 23;
     localparam SHOWN_BITS = EVENT_BITS + 2 > 5 ? EVENT_BITS + 2 : 5;
-    reg [3:0] state, next;
-    reg asks_step, asks_trigger, asks_event;
+    reg [4:0] state, next;
+    reg asks_step, asks_trigger, asks_event, asks_slide;
     reg goes_forward, was_full; // the step
     reg [1:0] its_kind;         // the event
     reg [4:0] its_channel;
     reg [15:0] its_levels;
-    reg is_lost;
-    reg [4:0] number;           // the word that is published
+    reg is_lost, keeps_value;
+    reg [2:0] output_at;        // the analog output
+    reg [ANALOG-1:0] slides_left;
+    reg [5:0] number;           // the word that is published
     reg is_closing;             // SEQUENCE becomes even
 
     // The adder: a counted word and an addend. The sum becomes that word if `counts`.
-    (* no_rw_check *) reg [63:0] counted[0:31];
-    reg [4:0] asked, read;      // the counted word, and that of the next clock
+    (* no_rw_check *) reg [63:0] counted[0:63];
+    reg [5:0] asked, read;      // the counted word, and that of the next clock
+    reg [5:0] counts_as;
     reg [63:0] counted_word, addend;
     reg counts, carry, adds;    // `adds`: `word` is the next clock's addend
-    wire [63:0] sum = counted_word + addend + {63'd0, carry};
+    wire [64:0] sum = {1'b0, counted_word} + {1'b0, addend} + {64'd0, carry};
+    wire is_below = state == SLIDE_VALUE && addend[63] && !sum[64];
+    wire is_full = state == SLIDE_VALUE && !addend[63] && sum[63:62] != 0;
+    wire [63:0] kept = is_below || is_full ? {1'b0, is_full, 62'd0} : sum[63:0];
 
     // The word that is published, put into a ring, or added.
-    reg [4:0] select;
+    wire [SEGMENT_BITS:0] segments_taken = segment_tail - counted_word[SEGMENT_BITS:0];
+    wire [OUTPUT_BITS:0] outputs_taken = output_tail - counted_word[OUTPUT_BITS:0];
+    reg [5:0] select;
     reg [63:0] word;
     always @* case (select)
         NOW: word = now;
@@ -89,16 +109,16 @@ module axis_record #(
         VELOCITY: word = velocity;
         RUN: word = run;
         FRAME: word = frame;
-        SEGMENT_TAIL: word = segment_tail;
         SETUP: word = setup;
         INPUTS: word = {32'd0, inputs};
         OUTPUTS: word = {48'd0, outputs};
-        OUTPUT_TAIL: word = output_tail;
         ANALOG_LOWER: word = analog[63:0];
         ANALOG_UPPER: word = analog[127:64];
         WHAT: word = {32'd0, its_levels, 3'd0, its_channel, 6'd0, its_kind};
-        VALUE: word = value;
-        DETAIL: word = detail;
+        NEW_VALUE: word = value;
+        NEW_SLOPE: word = slope;
+        SEGMENTS_TAKEN: word = {{(63 - SEGMENT_BITS){1'b0}}, segments_taken};
+        OUTPUTS_TAKEN: word = {{(63 - OUTPUT_BITS){1'b0}}, outputs_taken};
         STEP: word = {now[62:0], goes_forward};
         default: word = counted_word;
     endcase
@@ -112,24 +132,27 @@ module axis_record #(
     reg shows;
     wire is_note = state != SHOW;
     wire [SHOWN_BITS-1:0] note = {{(SHOWN_BITS - EVENT_BITS - 2){1'b0}}, entry, state[1:0]};
-    wire [SHOWN_BITS-1:0] map_word = {{(SHOWN_BITS - 5){1'b0}}, number};
+    wire [SHOWN_BITS-1:0] map_word = {{(SHOWN_BITS - 5){1'b0}}, number[4:0]};
     wire [SHOWN_BITS-1:0] read_note = {{(SHOWN_BITS - EVENT_BITS - 2){1'b0}}, read_event};
     wire [SHOWN_BITS-1:0] read_map_word = {{(SHOWN_BITS - 5){1'b0}}, read_word_number};
     wire [CAPTURE_BITS:0] steps_used = steps_head - capture_tail;
     wire [EVENT_BITS:0] events_used = events_head - event_tail;
     assign capture_full = steps_used[CAPTURE_BITS];
     wire events_full = events_used[EVENT_BITS];
-    assign busy = asks_step || asks_trigger || asks_event || (state != REST && state < OPEN);
+    assign busy = asks_step || asks_slide || asks_trigger || asks_event || (state != REST && state < OPEN);
 
     always @* begin
         next = REST;
         read = ZERO;
         select = ZERO;
+        counts_as = asked;
         {counts, carry, adds, shows} = 0;
         case (state)
             REST: if (asks_step) begin
                 next = STEP_HEAD;
                 read = CAPTURE_HEAD;
+            end else if (asks_slide) begin
+                next = SLIDE;
             end else if (asks_trigger) begin
                 next = TRIGGERED;
                 select = COUNT;
@@ -169,7 +192,10 @@ module axis_record #(
                 read = CAPTURE_SUMS;
             end
             STEP_END: counts = 1;
-            TRIGGERED: counts = 1;
+            TRIGGERED: begin
+                counts = 1;
+                counts_as = TRIGGER_COUNT;
+            end
             NOTE_TICK: begin
                 next = NOTE_WHAT;
                 counts = 1;
@@ -184,15 +210,38 @@ module axis_record #(
                 carry = is_lost;
                 select = WHAT;
                 shows = !is_lost;
+                read = keeps_value ? {VALUES, 1'b0, its_channel[2:0]} : ZERO;
             end
             NOTE_VALUE: begin
                 next = NOTE_DETAIL;
-                select = its_kind == 2 ? VALUE : COUNT;
+                select = its_kind != 2 ? COUNT : keeps_value ? ZERO : NEW_VALUE;
                 shows = !is_lost;
+                adds = 1;
             end
             NOTE_DETAIL: begin
-                select = its_kind == 2 ? DETAIL : its_kind == 0 ? PHASE : ZERO;
+                next = its_kind == 2 ? NOTE_SLOPE : REST;
+                select = its_kind == 2 ? NEW_SLOPE : its_kind == 0 ? PHASE : ZERO;
                 shows = !is_lost;
+                adds = 1;
+                counts = its_kind == 2;
+                counts_as = {VALUES, 1'b0, its_channel[2:0]};
+            end
+            NOTE_SLOPE: begin
+                counts = 1;
+                counts_as = {SLOPES, 1'b0, its_channel[2:0]};
+            end
+            SLIDE: if (slides_left != 0) begin
+                next = slides_left[0] ? SLIDE_SLOPE : SLIDE;
+                read = {SLOPES, 1'b0, output_at};
+            end
+            SLIDE_SLOPE: begin
+                next = SLIDE_VALUE;
+                adds = 1;
+                read = {VALUES, 1'b0, output_at};
+            end
+            SLIDE_VALUE: begin
+                next = SLIDE;
+                counts = 1;
             end
             OPEN: begin
                 next = OPENED;
@@ -200,6 +249,31 @@ module axis_record #(
                 carry = 1;
             end
             OPENED: begin
+                next = is_closing ? SHOW : TAKE_SEGMENTS;
+                read = is_closing ? SEQUENCE : SEGMENT_TAIL;
+            end
+            TAKE_SEGMENTS: begin
+                next = SEGMENTS_TAKE;
+                select = SEGMENTS_TAKEN;
+                adds = 1;
+                read = SEGMENT_TAIL;
+            end
+            SEGMENTS_TAKE: begin
+                next = TAKE_OUTPUTS;
+                counts = 1;
+                read = OUTPUT_TAIL;
+            end
+            TAKE_OUTPUTS: begin
+                next = OUTPUTS_TAKE;
+                select = OUTPUTS_TAKEN;
+                adds = 1;
+                read = OUTPUT_TAIL;
+            end
+            OUTPUTS_TAKE: begin
+                next = BEGIN;
+                counts = 1;
+            end
+            BEGIN: begin
                 next = SHOW;
                 read = SEQUENCE;
             end
@@ -217,15 +291,13 @@ module axis_record #(
     initial begin
         {state, asks_step, asks_trigger, asks_event, goes_forward, was_full, its_kind, its_channel, its_levels} = 0;
         {is_lost, number, is_closing, asked, counted_word, addend, steps_head, events_head, entry} = 0;
-        {publish_busy, is_published} = 0;
-        for (i = 0; i < 32; i = i + 1) begin
-            counted[i] = 0;
-            shown[i] = 0;
-        end
+        {publish_busy, is_published, asks_slide, keeps_value, output_at, slides_left, analog} = 0;
+        is_zero = 8'hff;
+        for (i = 0; i < 64; i = i + 1) counted[i] = 0;
+        for (i = 0; i < 32; i = i + 1) shown[i] = 0;
     end
-    wire [4:0] counts_as = state == TRIGGERED ? TRIGGER_COUNT : asked;
     always @(posedge clk) begin
-        if (counts) counted[counts_as] <= sum;
+        if (counts) counted[counts_as] <= kept;
         counted_word <= counted[read];
         asked <= read;
         addend <= adds ? word : 64'd0;
@@ -239,8 +311,9 @@ module axis_record #(
     always @(posedge clk) begin
         state <= next;
         asks_step <= step || (asks_step && state != REST);
-        asks_trigger <= triggered || (asks_trigger && (state != REST || asks_step));
-        asks_event <= put || (asks_event && (state != REST || asks_step || asks_trigger));
+        asks_slide <= tick ? slides != 0 : asks_slide && (state != REST || asks_step);
+        asks_trigger <= triggered || (asks_trigger && (state != REST || asks_step || asks_slide));
+        asks_event <= put || (asks_event && (state != REST || asks_step || asks_slide || asks_trigger));
         if (step) begin
             goes_forward <= forward;
             was_full <= capture_full;
@@ -251,12 +324,22 @@ module axis_record #(
             its_channel <= channel;
             its_levels <= levels;
             is_lost <= events_full;
+            keeps_value <= keeps;
             entry <= events_head[EVENT_BITS-1:0];
             if (!events_full) events_head <= events_head + 1'b1;
         end
+        if (state == REST) begin
+            slides_left <= slides;
+            output_at <= 0;
+        end else if ((state == SLIDE && !slides_left[0]) || state == SLIDE_VALUE) begin
+            slides_left <= slides_left >> 1;
+            output_at <= output_at + 1'b1;
+        end
+        if (state == NOTE_DETAIL && its_kind == 2) is_zero[its_channel[2:0]] <= addend == 0;
+        if (counts && counts_as[5:4] == VALUES) analog[{counts_as[2:0], 4'd0} +: 16] <= kept[62:47];
         if (publish && !hold) publish_busy <= 1;
         if (state == SHOW) begin
-            number <= number == LAST || is_closing ? 5'd0 : number + 1'b1;
+            number <= number == LAST || is_closing ? 6'd0 : number + 1'b1;
             is_closing <= number == LAST;
             if (is_closing) begin
                 publish_busy <= 0;

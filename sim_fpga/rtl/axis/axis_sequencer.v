@@ -50,6 +50,7 @@ module axis_sequencer #(
     output is_cut,
     output begins_body,
     output begins_tail,
+    output changes_run,         // for one clock: a run begins or ends
     input outputs_busy,
     input outputs_settled,      // those of the next frame are known
     input outputs_well,
@@ -62,7 +63,7 @@ module axis_sequencer #(
     input frame_settled,
     input frame_valid,
     input frame_good,
-    input [63:0] frame_at,
+    input [ENTRY_BITS:0] frame_at,
     input frame_is_last,
     input frame_is_of_run,
     input [31:0] frame_number,
@@ -100,7 +101,7 @@ module axis_sequencer #(
     output reg [63:0] run,
     output reg [63:0] frame,
     output triggered,           // for one clock: the run ends by its trigger
-    output [63:0] segment_tail,
+    output [ENTRY_BITS:0] segment_tail, // low bits
     output reg [63:0] setup,
     output enabled              // the motor is
 );
@@ -127,7 +128,7 @@ module axis_sequencer #(
     reg is_last;
     reg [15:0] body_left, tail_left; // pieces, with the present one
     reg [ENTRY_BITS-1:0] piece; // the present one in the ring
-    reg [63:0] frame_begin;     // where the present frame begins in the ring
+    reg [ENTRY_BITS:0] frame_begin;     // where the present frame begins in the ring
     reg [1:0] fetched;
     reg [63:0] refused;         // the number of a setup that was refused
     reg is_enabled;
@@ -138,6 +139,7 @@ module axis_sequencer #(
     assign at_rest = motion == AT_REST;
     wire setup_is_new = setup_request != setup && setup_request != refused;
     wire run_is_new = run_request != 0 && run_request != run;
+    wire takes_run = run_is_new && ((state == RUN && !in_motion) || (state == DECIDE && motion == AT_REST));
     wire is_stop_asked = stop != 0 && stop == run_request;
     wire may_enable = enable && !(is_host_silent && disables_at_silence);
     wire may_move = !has_lost_ticks && setup != 0 && is_enabled && enabled_for >= enable_ticks;
@@ -232,6 +234,7 @@ module axis_sequencer #(
     assign rebase = (state == ACT && begins_run && joins) || (ends && into_limit);
     assign rebase_phase = ends && into_limit ? REST_PHASE : frame_phase;
     assign halt = ends;
+    assign changes_run = ends || takes_run;
     assign triggered = ends && reason[7];
     assign fetch = state == FETCH;
     assign fetch_address = {piece, fetched};
@@ -318,7 +321,7 @@ module axis_sequencer #(
         if (ends) begin
             motion <= AT_REST;
             run_bits <= run_bits | FINISHED | reason | (motion == TAIL ? ENDED_IN_TAIL : 16'd0);
-        end else if (run_is_new && ((state == RUN && !in_motion) || (state == DECIDE && motion == AT_REST))) begin
+        end else if (takes_run) begin
             motion <= WAITING;
             run <= run_request;
             trigger <= trigger_request;
