@@ -53,32 +53,32 @@ module axis_device #(
     `include "registers.vh"
     // verilator lint_on UNUSED
 
-    wire [63:0] run_request, armed, veto, stop, beat;
+    wire [63:0] run_request, armed, veto, stop;
     wire [SEGMENT_BITS:0] segment_head;
     wire [OUTPUT_BITS:0] output_head;
     wire [CAPTURE_BITS:0] capture_tail;
     wire [EVENT_BITS:0] event_tail;
-    wire [63:0] setup_request, direct_request;
-    wire [63:0] setup_word, host_word;
+    wire [63:0] device_word, host_word;
     wire [32:0] trigger;
     wire [6:0] setup_address, direct_address;
-    wire enable, setup_busy;
+    wire enable, start_setup, setup_busy, reads_direct, beats, look_at_host, asks_direct, direct_outputs, asks_setup;
     axis_host_words #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS), .SEGMENT_BITS(SEGMENT_BITS),
         .OUTPUT_BITS(OUTPUT_BITS)) host_words (.clk(clk), .write(write), .write_address(write_address),
         .write_data(write_data), .read_address({read_address[13], read_address[8:3]}), .read_word(host_word),
-        .setup_address(setup_busy ? setup_address : direct_address), .setup_word(setup_word),
-        .run_request(run_request), .trigger(trigger), .armed(armed), .veto(veto), .stop(stop),
-        .segment_head(segment_head), .capture_tail(capture_tail), .event_tail(event_tail), .beat(beat), .enable(enable),
-        .output_head(output_head), .direct_request(direct_request), .setup_request(setup_request));
+        .device_address(reads_direct ? direct_address : setup_address), .device_word(device_word),
+        .run_request(run_request), .trigger(trigger), .armed(armed), .veto(veto), .stop(stop), .enable(enable),
+        .segment_head(segment_head), .capture_tail(capture_tail), .event_tail(event_tail), .output_head(output_head),
+        .beats(beats), .take_beat(look_at_host), .asks_direct(asks_direct), .take_direct(direct_outputs),
+        .asks_setup(asks_setup), .take_setup(start_setup));
 
     wire [39:0] at_cut, at_silence;
-    wire start_setup, setup_taken, setup_refused, invert_inputs, set_debounce, disables_at_silence;
+    wire setup_taken, setup_refused, invert_inputs, set_debounce, disables_at_silence;
     wire [31:0] enable_ticks, debounce_ticks, silence_ticks;
     wire [INPUTS-1:0] inputs_inverted, next_inputs_inverted, limit_min, limit_max, home, stop_inputs;
     wire [4:0] debounce_input;
     axis_setup #(.INPUTS(INPUTS), .DIGITAL(DIGITAL), .ANALOG(ANALOG), .TIME_BITS(TIME_BITS)) setup_words (.clk(clk),
         .start(start_setup), .busy(setup_busy), .taken(setup_taken), .refused(setup_refused), .address(setup_address),
-        .word(setup_word), .step_width(step_width), .direction_setup(direction_setup),
+        .word(device_word), .step_width(step_width), .direction_setup(direction_setup),
         .direction_hold(direction_hold), .enable_ticks(enable_ticks),
         .inverted(inverted), .inputs_inverted(inputs_inverted), .invert_inputs(invert_inputs),
         .next_inputs_inverted(next_inputs_inverted), .limit_min(limit_min), .limit_max(limit_max), .home(home),
@@ -87,9 +87,9 @@ module axis_device #(
         .at_cut(at_cut), .at_silence(at_silence),
         .disables_at_silence(disables_at_silence), .silence_ticks(silence_ticks));
 
-    wire [63:0] now, count, run, frame, setup, phase, velocity;
+    wire [63:0] now, count, run, frame, phase, velocity;
     wire [SEGMENT_BITS:0] segment_tail;
-    wire ticks, look, inputs_busy, look_at_host, judge_host, falls_silent, is_host_silent, accelerate, travel;
+    wire ticks, look, inputs_busy, judge_host, falls_silent, is_host_silent, accelerate, travel;
     wire [INPUTS-1:0] closed;
     wire input_changes, changed_closed, events_busy;
     wire [4:0] changed_input;
@@ -105,7 +105,7 @@ module axis_device #(
     wire [63:0] output_value, output_slope;
     wire [ANALOG-1:0] slides;
     wire [7:0] is_zero;
-    axis_host_watch host_watch (.clk(clk), .begins(setup_taken), .look(look_at_host), .beat(beat), .tick(ticks),
+    axis_host_watch host_watch (.clk(clk), .begins(setup_taken), .look(look_at_host), .beats(beats), .tick(ticks),
         .judge(judge_host), .patience(silence_ticks), .falls_silent(falls_silent), .is_silent(is_host_silent));
 
     wire fetch, drop_own, drop_others, take, frame_settled, frame_valid, frame_good, frame_is_last, frame_is_of_run;
@@ -124,7 +124,7 @@ module axis_device #(
         .is_last(frame_is_last), .is_of_run(frame_is_of_run), .number(frame_number), .start(frame_start),
         .count(frame_count), .body_pieces(frame_body_pieces), .tail_pieces(frame_tail_pieces), .phase(frame_phase));
 
-    wire direct_outputs, due_outputs, silence_outputs, end_outputs, is_cut, begins_body, begins_tail, rests, in_motion;
+    wire due_outputs, silence_outputs, end_outputs, is_cut, begins_body, begins_tail, rests, in_motion;
     wire outputs_busy, outputs_settled, outputs_well, reads_output;
     wire [OUTPUT_BITS+1:0] output_address;
     wire [63:0] output_word;
@@ -133,15 +133,17 @@ module axis_device #(
     wire is_output_write = write && write_address[19:16] == LOCKSTEP_OUTPUT_RING[19:16];
     axis_output_ring #(.ENTRY_BITS(OUTPUT_BITS), .DIGITAL(DIGITAL), .ANALOG(ANALOG)) output_ring (.clk(clk),
         .write(is_output_write), .write_address(write_address[OUTPUT_BITS+4:3]), .write_data(write_data),
-        .head(output_head), .run(run[23:0]), .frame(frame[31:0]), .restart(changes_run), .rests(rests), .in_motion(in_motion),
-        .drop_own(drop_own), .take(begins_body), .settled(outputs_settled), .is_well(outputs_well),
+        .head(output_head), .run(run[23:0]), .frame(frame[31:0]), .restart(changes_run), .rests(rests),
+        .in_motion(in_motion), .drop_own(drop_own), .take(begins_body), .settled(outputs_settled),
+        .is_well(outputs_well),
         .tail(output_tail), .first(first_output), .behind(behind_outputs), .reads(reads_output),
         .read_address(output_address), .word(output_word));
     axis_outputs #(.ENTRY_BITS(OUTPUT_BITS), .DIGITAL(DIGITAL), .ANALOG(ANALOG)) outputs (.clk(clk),
         .direct(direct_outputs), .due(due_outputs), .begin_body(begins_body), .is_well(outputs_well),
         .begin_tail(begins_tail), .end_run(end_outputs), .is_cut(is_cut), .silence(silence_outputs), .tick(ticks),
         .busy(outputs_busy), .is_host_silent(is_host_silent), .at_cut(at_cut), .at_silence(at_silence),
-        .direct_request(direct_request), .word_address(direct_address), .host_word(setup_word), .run(run[23:0]),
+        .asks_direct(asks_direct), .reads_host(reads_direct), .word_address(direct_address), .host_word(device_word),
+        .run(run[23:0]),
         .frame(frame[31:0]), .first(first_output), .behind(behind_outputs), .reads(reads_output),
         .read_address(output_address), .word(output_word), .put(output_changes), .is_analog(is_analog),
         .channel(changed_output), .keeps(keeps_value), .value(output_value), .slope(output_slope),
@@ -159,7 +161,8 @@ module axis_device #(
     axis_sequencer #(.INPUTS(INPUTS), .ENTRY_BITS(SEGMENT_BITS), .SETTLE_CLOCKS(SETTLE_CLOCKS)) sequencer (.clk(clk),
         .tick(tick), .busy(busy), .ticks(ticks), .first_tick(first_tick), .run_request(run_request),
         .trigger_request(trigger), .armed(armed), .veto(veto), .stop(stop), .enable(enable),
-        .setup_request(setup_request), .start_setup(start_setup), .setup_busy(setup_busy), .setup_taken(setup_taken),
+        .setup_is_new(asks_setup), .start_setup(start_setup), .setup_busy(setup_busy || events_busy),
+        .setup_taken(setup_taken),
         .setup_refused(setup_refused), .enable_ticks(enable_ticks), .limit_min(limit_min), .limit_max(limit_max),
         .home(home), .stop_inputs(stop_inputs), .disables_at_silence(disables_at_silence), .look(look),
         .inputs_busy(inputs_busy), .closed(closed), .look_at_host(look_at_host), .judge_host(judge_host),
@@ -178,7 +181,7 @@ module axis_device #(
         .engine_step(engine_step), .engine_backward(engine_backward), .step(step), .forward(forward),
         .capture_full(capture_full), .publish(publish), .publish_busy(publish_busy), .now(now), .status(status),
         .count(count), .run(run), .frame(frame), .triggered(triggered), .segment_tail(segment_tail),
-        .setup(setup), .enabled(enabled));
+        .enabled(enabled));
 
     wire [63:0] shown_word, captured_step;
     wire is_published;
@@ -186,13 +189,15 @@ module axis_device #(
     axis_record #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS), .SEGMENT_BITS(SEGMENT_BITS),
         .OUTPUT_BITS(OUTPUT_BITS), .ANALOG(ANALOG)) record (.clk(clk), .busy(events_busy),
         .step(step), .forward(forward), .capture_tail(capture_tail), .capture_full(capture_full),
-        .triggered(triggered), .put(input_changes || output_changes),
+        .triggered(triggered), .setup_taken(setup_taken), .host_word(device_word),
+        .put(input_changes || output_changes),
         .kind(!output_changes ? 2'd0 : is_analog ? 2'd2 : 2'd1),
         .channel(!output_changes ? changed_input : is_analog ? changed_output : 5'd0),
         .levels(!output_changes ? {15'd0, changed_closed} : is_analog ? 16'd0 : digital), .keeps(keeps_value),
-        .value(output_value), .slope(output_slope), .tick(ticks), .slides(slides), .is_zero(is_zero), .analog(analog), .event_tail(event_tail), .publish(publish), .hold(hold), .publish_busy(publish_busy),
+        .value(output_value), .slope(output_slope), .tick(ticks), .slides(slides), .is_zero(is_zero),
+        .analog(analog), .event_tail(event_tail), .publish(publish), .hold(hold), .publish_busy(publish_busy),
         .is_published(is_published), .now(now), .status(status), .count(count), .phase(phase), .velocity(velocity),
-        .run(run), .frame(frame), .segment_tail(segment_tail), .setup(setup),
+        .run(run), .frame(frame), .segment_tail(segment_tail),
         .inputs({{(32 - INPUTS){1'b0}}, closed}), .outputs(digital), .output_tail(output_tail),
         .reads_event(is_event_read), .read_event(read_address[EVENT_BITS+4:3]), .read_word_number(read_address[7:3]),
         .read_word(shown_word), .read_entry(read_address[CAPTURE_BITS+2:3]), .read_step(captured_step));

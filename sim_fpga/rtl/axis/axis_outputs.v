@@ -24,7 +24,8 @@ module axis_outputs #(
     input [39:0] at_cut,
     input [39:0] at_silence,
     // The host's words.
-    input [63:0] direct_request,
+    input asks_direct,          // there is a new DIRECT_REQUEST
+    output reads_host,
     output [6:0] word_address,  // in axis_host_words.v
     input [63:0] host_word,     // one clock after the address
     // The ring's entries of the present frame.
@@ -46,7 +47,7 @@ module axis_outputs #(
     // What the outputs show.
     output reg [15:0] levels,
     output [ANALOG-1:0] slides, // analog outputs with a slope
-    input [7:0] is_zero         // analog outputs that were given 0
+    input [7:0] is_zero         // analog outputs that were given 0: at the end of a run, those at 0
 );
     localparam REST = 0, DIRECT = 1, CHANNEL = 2, CHANNEL_WORD = 3, NEXT = 4, TAG = 5, AT = 6, VALUE = 7, SLOPE = 8,
         DIGITAL_CHANGE = 9, ANALOG_CHANGE = 10, NOTE = 11, NOTED = 12, END = 13, SAFE_CHANNEL = 14;
@@ -54,7 +55,6 @@ module axis_outputs #(
     localparam [6:0] DIRECT_OUTPUTS = 7'd12, FIRST_DIRECT_VALUE = 7'd65; // in axis_host_words.v
     reg [3:0] state, back;      // `back`: after a change
     reg asked;                  // the memory shows the word
-    reg [63:0] request;         // the direct request taken last
     reg [39:0] safe;
     reg is_safe_asked;
     reg [7:0] mask;             // the analog outputs that change
@@ -67,13 +67,13 @@ module axis_outputs #(
     reg [63:0] new_value, new_slope;
     // The outputs.
     reg [7:0] has_slope;
-    wire [7:0] is_off = is_zero & ~has_slope;
 
     wire [15:0] changed_levels = (levels & ~new_value[31:16]) | (new_value[15:0] & new_value[31:16]);
     wire [62:0] clamped = new_value[63] ? 63'd0 : new_value[62] ? FULL : new_value[62:0];
     wire [7:0] safe_off = safe[39:32];
     wire is_last = {27'd0, channel} == ANALOG;
     assign busy = state != REST;
+    assign reads_host = state == DIRECT || state == CHANNEL_WORD;
     assign word_address = state == DIRECT ? DIRECT_OUTPUTS : FIRST_DIRECT_VALUE + {1'b0, channel, 1'b0};
     wire [1:0] number = state == AT ? 2'd1 : state == VALUE ? 2'd2 : state == SLOPE ? 2'd3 : 2'd0;
     assign reads = (state == TAG || state == AT || state == VALUE || state == SLOPE) && !asked;
@@ -86,7 +86,7 @@ module axis_outputs #(
     wire is_this = word[31:8] == run && word[63:32] == frame && word[0] == in_tail;
 
     initial begin
-        {state, back, asked, request, safe, is_safe_asked, mask, is_active, in_tail, is_known, at, since} = 0;
+        {state, back, asked, safe, is_safe_asked, mask, is_active, in_tail, is_known, at, since} = 0;
         {is_usable, begins, kind, due_channel, new_value, new_slope, levels, is_analog, channel} = 0;
         has_slope = 0;
     end
@@ -96,10 +96,7 @@ module axis_outputs #(
             REST: begin
                 asked <= 0;
                 channel <= 0;
-                if (direct && direct_request != request) begin
-                    request <= direct_request;
-                    if (!is_host_silent) state <= DIRECT;
-                end
+                if (direct && asks_direct && !is_host_silent) state <= DIRECT;
                 if (due && is_active) state <= NEXT;
                 if (end_run || silence) begin
                     is_active <= 0;
@@ -183,7 +180,7 @@ module axis_outputs #(
             end
             SAFE_CHANNEL: begin
                 if (is_last) state <= REST;
-                else if (safe_off[channel[2:0]] && !is_off[channel[2:0]]) begin
+                else if (safe_off[channel[2:0]] && !is_zero[channel[2:0]]) begin
                     {new_value, new_slope} <= 0;
                     back <= SAFE_CHANNEL;
                     state <= ANALOG_CHANGE;

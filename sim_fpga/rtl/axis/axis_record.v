@@ -1,10 +1,10 @@
 // What the device shows its host: the words of the map, the capture ring and the event ring. One adder counts and sums
 // all of it, and what it counts is in memory.
 //
-// It does one thing at a time: it notes a step, a trigger or an event, moves the analog outputs by their slopes, or
-// publishes the words, which are all of one state then. SEQUENCE is odd meanwhile. While `hold` is high, the words stay as they are: a host behind a slow link
-// then reads one consistent state, however long that takes. The rings are sim_fpga/capture_ring.hpp and
-// sim_fpga/event_ring.hpp.
+// It does one thing at a time: it notes a step, a trigger, a setup or an event, moves the analog outputs by their
+// slopes, or publishes the words, which are all of one state then. SEQUENCE is odd meanwhile. While `hold` is high, the
+// words stay as they are: a host behind a slow link then reads one consistent state, however long that takes. The rings
+// are sim_fpga/capture_ring.hpp and sim_fpga/event_ring.hpp.
 module axis_record #(
     parameter CAPTURE_BITS = 8, // 2 to the power of it is the number of entries
     parameter EVENT_BITS = 4,
@@ -21,6 +21,9 @@ module axis_record #(
     output capture_full,
     // A run ends by its trigger, for one clock.
     input triggered,
+    // A setup was taken, for one clock: host_word becomes SETUP_REQUEST.
+    input setup_taken,
+    input [63:0] host_word,
     // An event, for one clock while it is not busy. That of an analog output gives it this value and this slope.
     input put,
     input keeps,                // the analog output keeps its value
@@ -34,7 +37,7 @@ module axis_record #(
     input tick,
     input [ANALOG-1:0] slides,  // the analog outputs with a slope
     output reg [7:0] is_zero,   // the analog output was given 0
-    output reg [127:0] analog,  // what they show: 16 bits each, of 2^-15 of full scale
+    output [127:0] analog,      // what they show: 16 bits each, of 2^-15 of full scale
     // The words are published, for one clock.
     input publish,
     input hold,
@@ -48,7 +51,6 @@ module axis_record #(
     input [63:0] run,
     input [63:0] frame,
     input [SEGMENT_BITS:0] segment_tail, // low bits
-    input [63:0] setup,
     input [31:0] inputs,
     input [15:0] outputs,
     input [OUTPUT_BITS:0] output_tail,
@@ -66,15 +68,15 @@ module axis_record #(
         TRIGGER_COUNT = 8, ENCODER = 9, SEGMENT_TAIL = 10, CAPTURE_HEAD = 11, CAPTURE_LOST = 12, CAPTURE_SUM = 13,
         CAPTURE_SUMS = 14, SETUP = 15, INPUTS = 16, OUTPUTS = 17, OUTPUT_TAIL = 18, EVENT_HEAD = 19, EVENT_LOST = 20,
         ANALOG_LOWER = 22, ANALOG_UPPER = 23, LAST = 23, WHAT = 24, NEW_VALUE = 25, NEW_SLOPE = 26, STEP = 27,
-        SEGMENTS_TAKEN = 28, OUTPUTS_TAKEN = 29, ZERO = 31;
+        SEGMENTS_TAKEN = 28, OUTPUTS_TAKEN = 29, HOST = 30, ZERO = 31;
     localparam [1:0] VALUES = 2, SLOPES = 3; // {one of them, 1'b0, output}
     localparam [4:0] REST = 0, STEP_HEAD = 1, STEP_LOST = 2, STEP_SUM = 3, STEP_SUMMED = 4, STEP_SUMS = 5, STEP_END = 6,
         TRIGGERED = 7, NOTE_TICK = 8, NOTE_WHAT = 9, NOTE_VALUE = 10, NOTE_DETAIL = 11, NOTE_SLOPE = 12, SLIDE = 13,
         SLIDE_SLOPE = 14, SLIDE_VALUE = 15, OPEN = 16, OPENED = 17, TAKE_SEGMENTS = 18, SEGMENTS_TAKE = 19,
-        TAKE_OUTPUTS = 20, OUTPUTS_TAKE = 21, BEGIN = 22, SHOW = 23;
+        TAKE_OUTPUTS = 20, OUTPUTS_TAKE = 21, BEGIN = 22, SHOW = 23, TAKE_SETUP = 24, SETUP_TAKEN = 25;
     localparam SHOWN_BITS = EVENT_BITS + 2 > 5 ? EVENT_BITS + 2 : 5;
     reg [4:0] state, next;
-    reg asks_step, asks_trigger, asks_event, asks_slide;
+    reg asks_step, asks_trigger, asks_event, asks_slide, asks_setup;
     reg goes_forward, was_full; // the step
     reg [1:0] its_kind;         // the event
     reg [4:0] its_channel;
@@ -109,7 +111,7 @@ module axis_record #(
         VELOCITY: word = velocity;
         RUN: word = run;
         FRAME: word = frame;
-        SETUP: word = setup;
+        HOST: word = host_word;
         INPUTS: word = {32'd0, inputs};
         OUTPUTS: word = {48'd0, outputs};
         ANALOG_LOWER: word = analog[63:0];
@@ -139,7 +141,8 @@ module axis_record #(
     wire [EVENT_BITS:0] events_used = events_head - event_tail;
     assign capture_full = steps_used[CAPTURE_BITS];
     wire events_full = events_used[EVENT_BITS];
-    assign busy = asks_step || asks_slide || asks_trigger || asks_event || (state != REST && state < OPEN);
+    assign busy = asks_step || asks_slide || asks_trigger || asks_event || asks_setup ||
+        (state != REST && (state < OPEN || state > SHOW));
 
     always @* begin
         next = REST;
@@ -160,6 +163,8 @@ module axis_record #(
             end else if (asks_event) begin
                 next = NOTE_TICK;
                 read = EVENT_HEAD;
+            end else if (asks_setup) begin
+                next = TAKE_SETUP;
             end else if (publish_busy) begin
                 next = OPEN;
                 read = SEQUENCE;
@@ -243,6 +248,15 @@ module axis_record #(
                 next = SLIDE;
                 counts = 1;
             end
+            TAKE_SETUP: begin
+                next = SETUP_TAKEN;
+                select = HOST;
+                adds = 1;
+            end
+            SETUP_TAKEN: begin
+                counts = 1;
+                counts_as = SETUP;
+            end
             OPEN: begin
                 next = OPENED;
                 counts = 1;
@@ -287,11 +301,22 @@ module axis_record #(
         endcase
     end
 
+    genvar n;
+    generate for (n = 0; n < 8; n = n + 1) begin : outputs_shown
+        if (n < ANALOG) begin : value
+            reg [15:0] level;
+            initial level = 0;
+            always @(posedge clk) if (counts && counts_as == {VALUES, 4'd0} + n) level <= kept[62:47];
+            assign analog[16*n +: 16] = level;
+        end else begin : none
+            assign analog[16*n +: 16] = 0;
+        end
+    end endgenerate
     integer i;
     initial begin
         {state, asks_step, asks_trigger, asks_event, goes_forward, was_full, its_kind, its_channel, its_levels} = 0;
         {is_lost, number, is_closing, asked, counted_word, addend, steps_head, events_head, entry} = 0;
-        {publish_busy, is_published, asks_slide, keeps_value, output_at, slides_left, analog} = 0;
+        {publish_busy, is_published, asks_slide, keeps_value, output_at, slides_left, asks_setup} = 0;
         is_zero = 8'hff;
         for (i = 0; i < 64; i = i + 1) counted[i] = 0;
         for (i = 0; i < 32; i = i + 1) shown[i] = 0;
@@ -314,6 +339,7 @@ module axis_record #(
         asks_slide <= tick ? slides != 0 : asks_slide && (state != REST || asks_step);
         asks_trigger <= triggered || (asks_trigger && (state != REST || asks_step || asks_slide));
         asks_event <= put || (asks_event && (state != REST || asks_step || asks_slide || asks_trigger));
+        asks_setup <= setup_taken || (asks_setup && state != TAKE_SETUP);
         if (step) begin
             goes_forward <= forward;
             was_full <= capture_full;
@@ -336,7 +362,6 @@ module axis_record #(
             output_at <= output_at + 1'b1;
         end
         if (state == NOTE_DETAIL && its_kind == 2) is_zero[its_channel[2:0]] <= addend == 0;
-        if (counts && counts_as[5:4] == VALUES) analog[{counts_as[2:0], 4'd0} +: 16] <= kept[62:47];
         if (publish && !hold) publish_busy <= 1;
         if (state == SHOW) begin
             number <= number == LAST || is_closing ? 6'd0 : number + 1'b1;

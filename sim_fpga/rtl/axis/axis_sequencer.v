@@ -22,7 +22,7 @@ module axis_sequencer #(
     input [63:0] veto,
     input [63:0] stop,
     input enable,
-    input [63:0] setup_request,
+    input setup_is_new,         // there is a new SETUP_REQUEST
     // The setup.
     output start_setup,
     input setup_busy,
@@ -102,7 +102,6 @@ module axis_sequencer #(
     output reg [63:0] frame,
     output triggered,           // for one clock: the run ends by its trigger
     output [ENTRY_BITS:0] segment_tail, // low bits
-    output reg [63:0] setup,
     output enabled              // the motor is
 );
     localparam AT_REST = 0, WAITING = 1, BODY = 2, TAIL = 3;
@@ -130,19 +129,18 @@ module axis_sequencer #(
     reg [ENTRY_BITS-1:0] piece; // the present one in the ring
     reg [ENTRY_BITS:0] frame_begin;     // where the present frame begins in the ring
     reg [1:0] fetched;
-    reg [63:0] refused;         // the number of a setup that was refused
+    reg is_set_up, is_refused;  // a setup was taken; the last one was refused
     reg is_enabled;
     reg [31:0] enabled_for;
     reg stepped, stepped_backward, into_limit; // in this tick
 
     assign in_motion = motion == BODY || motion == TAIL;
     assign at_rest = motion == AT_REST;
-    wire setup_is_new = setup_request != setup && setup_request != refused;
     wire run_is_new = run_request != 0 && run_request != run;
     wire takes_run = run_is_new && ((state == RUN && !in_motion) || (state == DECIDE && motion == AT_REST));
     wire is_stop_asked = stop != 0 && stop == run_request;
     wire may_enable = enable && !(is_host_silent && disables_at_silence);
-    wire may_move = !has_lost_ticks && setup != 0 && is_enabled && enabled_for >= enable_ticks;
+    wire may_move = !has_lost_ticks && is_set_up && is_enabled && enabled_for >= enable_ticks;
 
     // The next frame: 1 while the run waits for it. What SETTLE compares in its last clock, ACT decides about.
     reg [63:0] number;
@@ -250,7 +248,7 @@ module axis_sequencer #(
     assign enabled = is_enabled;
     assign segment_tail = in_motion ? frame_begin : frame_at;
 
-    wire bad_setup = refused != 0 && setup_request == refused;
+    wire bad_setup = is_refused && !setup_is_new;
     assign status = {1'b0, run_bits} | {has_lost_ticks, 1'b0, bad_setup, 1'b0, is_host_silent, is_enabled, 5'd0,
         (closed & home) != 0, at_max, at_min, motion == TAIL, 1'b0, in_motion};
 
@@ -259,9 +257,9 @@ module axis_sequencer #(
         back = IDLE;
         {owed, has_lost_ticks, is_after, motion, waited, trigger, run_bits, is_last, body_left, tail_left} = 0;
         {piece, frame_begin} = 0;
-        {fetched, refused, is_enabled, enabled_for, stepped, stepped_backward, into_limit} = 0;
+        {fetched, is_set_up, is_refused, is_enabled, enabled_for, stepped, stepped_backward, into_limit} = 0;
         {number, is_vetoed, is_armed, is_of_request, is_number, is_past, is_now, is_place, rests, is_same_phase} = 0;
-        {now, count, run, frame, setup} = 0;
+        {now, count, run, frame} = 0;
     end
 
     // The order of work.
@@ -309,8 +307,8 @@ module axis_sequencer #(
 
     // The setup and the motor's enable.
     always @(posedge clk) begin
-        if (setup_taken) setup <= setup_request;
-        if (setup_refused) refused <= setup_request;
+        if (setup_taken) is_set_up <= 1;
+        if (setup_taken || setup_refused) is_refused <= setup_refused;
         if (state == ENABLE || (state == TENDED && is_host_silent)) is_enabled <= may_enable;
         if (!is_enabled) enabled_for <= 0;
         else if (state == TRAVEL && enabled_for != 32'hffffffff) enabled_for <= enabled_for + 1'b1;

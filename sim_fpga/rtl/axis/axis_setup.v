@@ -13,7 +13,7 @@ module axis_setup #(
     output busy,                // reading, from the clock after `start` on
     output taken,               // for the last clock: the setup is that of the host's words
     output refused,             // for the last clock: the device cannot do it, and its setup is as before
-    output [6:0] address,       // in axis_host_words.v
+    output [6:0] address,       // in axis_host_words.v; at rest that of SETUP_REQUEST
     input [63:0] word,
     output reg [TIME_BITS-1:0] step_width,
     output reg [TIME_BITS-1:0] direction_setup,
@@ -41,7 +41,7 @@ module axis_setup #(
     localparam STEP_WIDTH = 0, DIRECTION_SETUP = 1, DIRECTION_HOLD = 2, ENABLE_TICKS = 3, INVERTED = 4,
         INPUTS_INVERTED = 5, LIMIT_MIN = 6, LIMIT_MAX = 7, HOME = 8, STOP = 9, OUTPUTS_INVERTED = 10, AT_CUT = 11,
         AT_SILENCE = 12, SILENCE_TICKS = 13, COMPARE_OUTPUTS = 14, DEBOUNCE = 16, PWM_PERIOD = 48, LAST = 55;
-    localparam [5:0] FIRST_WORD = 33, INPUT_TABLE = 32; // where they begin in axis_host_words.v
+    localparam [5:0] REQUEST = 32, FIRST_WORD = 33, INPUT_TABLE = 32; // where they begin in axis_host_words.v
     localparam REST = 0, CHECK = 1, TAKE = 2;
     reg [1:0] state;
     reg [5:0] at;
@@ -49,7 +49,7 @@ module axis_setup #(
     wire is_debounce = at >= DEBOUNCE && at < PWM_PERIOD;
     wire [4:0] channel = at[4:0] - DEBOUNCE[4:0];
     wire [6:0] pwm_word = {1'b1, 2'd0, at[2:0], 1'b0};
-    assign address = at < DEBOUNCE ? {1'b0, FIRST_WORD + at} :
+    assign address = state == REST ? {1'b0, REQUEST} : at < DEBOUNCE ? {1'b0, FIRST_WORD + at} :
         is_debounce ? {1'b1, INPUT_TABLE + {1'b0, channel}} : pwm_word;
 
     reg is_possible;

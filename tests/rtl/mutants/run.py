@@ -100,7 +100,7 @@ LONG_MUTANTS = [
     ("axis_device", "axis/axis_outputs.v", "is_active <= is_usable && !is_host_silent", "is_active <= is_usable"),
     ("axis_device", "axis/axis_outputs.v", "word[42:0] > since", "word[42:0] >= since"),
     ("axis_device", "axis/axis_outputs.v", "(levels & ~new_value[31:16])", "levels"),
-    ("axis_device", "axis/axis_outputs.v", "is_zero & ~has_slope", "is_zero"),
+    ("axis_device", "axis/axis_record.v", "addend == 0", "1'b0"),
     ("axis_device", "axis/axis_record.v", "sum[63:62] != 0", "sum[63]"),
     ("axis_device", "axis/axis_outputs.v", "is_safe_asked <= silence || is_cut", "is_safe_asked <= is_cut"),
     ("axis_device", "axis/axis_outputs.v", "channel <= {2'd0, due_channel};", ""),

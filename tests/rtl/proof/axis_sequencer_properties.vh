@@ -16,7 +16,7 @@
 
     wire [63:0] following = frame + 1;
     wire is_allowed = armed >= following && veto > following && run_request == run;
-    wire has_motor = setup != 0 && is_enabled;
+    wire has_motor = is_set_up && is_enabled;
     wire begins = motion == BODY && (was != BODY || frame != was_frame);
     wire stops = (state == CEASE && stop != 0 && stop == run_request) || (state == ENABLE && !enable && is_enabled) ||
         (state == TEND && !inputs_busy && (closed & stop_inputs) != 0 && in_motion);
