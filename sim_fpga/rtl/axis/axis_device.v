@@ -58,18 +58,26 @@ module axis_device #(
     wire [OUTPUT_BITS:0] output_head;
     wire [CAPTURE_BITS:0] capture_tail;
     wire [EVENT_BITS:0] event_tail;
-    wire [63:0] device_word, host_word;
+    wire [63:0] host_word;
     wire [32:0] trigger;
-    wire [6:0] setup_address, direct_address;
-    wire enable, start_setup, setup_busy, reads_direct, beats, look_at_host, asks_direct, direct_outputs, asks_setup;
+    wire enable, start_setup, setup_busy, beats, look_at_host, asks_direct, direct_outputs, asks_setup;
     axis_host_words #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS), .SEGMENT_BITS(SEGMENT_BITS),
         .OUTPUT_BITS(OUTPUT_BITS)) host_words (.clk(clk), .write(write), .write_address(write_address),
         .write_data(write_data), .read_address({read_address[13], read_address[8:3]}), .read_word(host_word),
-        .device_address(reads_direct ? direct_address : setup_address), .device_word(device_word),
         .run_request(run_request), .trigger(trigger), .armed(armed), .veto(veto), .stop(stop), .enable(enable),
         .segment_head(segment_head), .capture_tail(capture_tail), .event_tail(event_tail), .output_head(output_head),
         .beats(beats), .take_beat(look_at_host), .asks_direct(asks_direct), .take_direct(direct_outputs),
         .asks_setup(asks_setup), .take_setup(start_setup));
+
+    // What the device reads of it.
+    wire reads_setup, asks_request, reads_direct, reads_entry;
+    wire [6:0] setup_address, direct_address;
+    wire [OUTPUT_BITS+1:0] entry_address, output_scan_address;
+    wire [63:0] device_word;
+    axis_host_memory #(.ENTRY_BITS(OUTPUT_BITS)) host_memory (.clk(clk), .write(write), .write_address(write_address),
+        .write_data(write_data), .reads_word(reads_setup || reads_direct || asks_request),
+        .word_address(reads_direct ? direct_address : setup_address), .reads_entry(reads_entry),
+        .entry_address(entry_address), .scan_address(output_scan_address), .word(device_word));
 
     wire [39:0] at_cut, at_silence;
     wire setup_taken, setup_refused, invert_inputs, set_debounce, disables_at_silence;
@@ -77,7 +85,7 @@ module axis_device #(
     wire [INPUTS-1:0] inputs_inverted, next_inputs_inverted, limit_min, limit_max, home, stop_inputs;
     wire [4:0] debounce_input;
     axis_setup #(.INPUTS(INPUTS), .DIGITAL(DIGITAL), .ANALOG(ANALOG), .TIME_BITS(TIME_BITS)) setup_words (.clk(clk),
-        .start(start_setup), .busy(setup_busy), .taken(setup_taken), .refused(setup_refused), .address(setup_address),
+        .start(start_setup), .busy(setup_busy), .taken(setup_taken), .refused(setup_refused), .reads(reads_setup), .address(setup_address),
         .word(device_word), .step_width(step_width), .direction_setup(direction_setup),
         .direction_hold(direction_hold), .enable_ticks(enable_ticks),
         .inverted(inverted), .inputs_inverted(inputs_inverted), .invert_inputs(invert_inputs),
@@ -101,10 +109,8 @@ module axis_device #(
     // Inputs and outputs never change in the same clock, because one is looked at after the other.
     wire output_changes, is_analog;
     wire [4:0] changed_output;
-    wire keeps_value;
-    wire [63:0] output_value, output_slope;
-    wire [ANALOG-1:0] slides;
-    wire [7:0] is_zero;
+    wire gives_value, keeps_value, gives_slope, asks_slope;
+    wire [7:0] has_slope, is_zero;
     axis_host_watch host_watch (.clk(clk), .begins(setup_taken), .look(look_at_host), .beats(beats), .tick(ticks),
         .judge(judge_host), .patience(silence_ticks), .falls_silent(falls_silent), .is_silent(is_host_silent));
 
@@ -125,29 +131,25 @@ module axis_device #(
         .count(frame_count), .body_pieces(frame_body_pieces), .tail_pieces(frame_tail_pieces), .phase(frame_phase));
 
     wire due_outputs, silence_outputs, end_outputs, is_cut, begins_body, begins_tail, rests, in_motion;
-    wire outputs_busy, outputs_settled, outputs_well, reads_output;
-    wire [OUTPUT_BITS+1:0] output_address;
-    wire [63:0] output_word;
+    wire outputs_busy, outputs_settled, outputs_well;
     wire [OUTPUT_BITS:0] output_tail, first_output, behind_outputs;
     wire changes_run;
-    wire is_output_write = write && write_address[19:16] == LOCKSTEP_OUTPUT_RING[19:16];
     axis_output_ring #(.ENTRY_BITS(OUTPUT_BITS), .DIGITAL(DIGITAL), .ANALOG(ANALOG)) output_ring (.clk(clk),
-        .write(is_output_write), .write_address(write_address[OUTPUT_BITS+4:3]), .write_data(write_data),
         .head(output_head), .run(run[23:0]), .frame(frame[31:0]), .restart(changes_run), .rests(rests),
         .in_motion(in_motion), .drop_own(drop_own), .take(begins_body), .settled(outputs_settled),
         .is_well(outputs_well),
-        .tail(output_tail), .first(first_output), .behind(behind_outputs), .reads(reads_output),
-        .read_address(output_address), .word(output_word));
+        .tail(output_tail), .first(first_output), .behind(behind_outputs), .pause(reads_setup || reads_direct || asks_request || reads_entry),
+        .address(output_scan_address), .word(device_word));
     axis_outputs #(.ENTRY_BITS(OUTPUT_BITS), .DIGITAL(DIGITAL), .ANALOG(ANALOG)) outputs (.clk(clk),
         .direct(direct_outputs), .due(due_outputs), .begin_body(begins_body), .is_well(outputs_well),
         .begin_tail(begins_tail), .end_run(end_outputs), .is_cut(is_cut), .silence(silence_outputs), .tick(ticks),
         .busy(outputs_busy), .is_host_silent(is_host_silent), .at_cut(at_cut), .at_silence(at_silence),
-        .asks_direct(asks_direct), .reads_host(reads_direct), .word_address(direct_address), .host_word(device_word),
-        .run(run[23:0]),
-        .frame(frame[31:0]), .first(first_output), .behind(behind_outputs), .reads(reads_output),
-        .read_address(output_address), .word(output_word), .put(output_changes), .is_analog(is_analog),
-        .channel(changed_output), .keeps(keeps_value), .value(output_value), .slope(output_slope),
-        .events_busy(events_busy), .levels(digital), .slides(slides), .is_zero(is_zero));
+        .asks_direct(asks_direct), .reads_word(reads_direct), .word_address(direct_address),
+        .reads_entry(reads_entry), .entry_address(entry_address), .word(device_word), .run(run[23:0]),
+        .frame(frame[31:0]), .first(first_output), .behind(behind_outputs), .put(output_changes),
+        .is_analog(is_analog), .channel(changed_output), .gives_value(gives_value), .keeps_value(keeps_value),
+        .gives_slope(gives_slope), .asks_slope(asks_slope), .has_slope(has_slope), .is_zero(is_zero),
+        .events_busy(events_busy), .levels(digital));
 
     wire load_ticks, load_velocity, load_acceleration, halt, rebase, idle, overflow, engine_step, engine_backward;
     wire [63:0] rebase_phase;
@@ -189,13 +191,13 @@ module axis_device #(
     axis_record #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS), .SEGMENT_BITS(SEGMENT_BITS),
         .OUTPUT_BITS(OUTPUT_BITS), .ANALOG(ANALOG)) record (.clk(clk), .busy(events_busy),
         .step(step), .forward(forward), .capture_tail(capture_tail), .capture_full(capture_full),
-        .triggered(triggered), .setup_taken(setup_taken), .host_word(device_word),
-        .put(input_changes || output_changes),
+        .triggered(triggered), .setup_taken(setup_taken), .asks_request(asks_request),
+        .host_word(device_word), .put(input_changes || output_changes),
         .kind(!output_changes ? 2'd0 : is_analog ? 2'd2 : 2'd1),
         .channel(!output_changes ? changed_input : is_analog ? changed_output : 5'd0),
-        .levels(!output_changes ? {15'd0, changed_closed} : is_analog ? 16'd0 : digital), .keeps(keeps_value),
-        .value(output_value), .slope(output_slope), .tick(ticks), .slides(slides), .is_zero(is_zero),
-        .analog(analog), .event_tail(event_tail), .publish(publish), .hold(hold), .publish_busy(publish_busy),
+        .levels(!output_changes ? {15'd0, changed_closed} : is_analog ? 16'd0 : digital), .gives_value(gives_value),
+        .keeps_value(keeps_value), .gives_slope(gives_slope), .asks_slope(asks_slope), .has_slope(has_slope),
+        .is_zero(is_zero), .tick(ticks), .analog(analog), .event_tail(event_tail), .publish(publish), .hold(hold), .publish_busy(publish_busy),
         .is_published(is_published), .now(now), .status(status), .count(count), .phase(phase), .velocity(velocity),
         .run(run), .frame(frame), .segment_tail(segment_tail),
         .inputs({{(32 - INPUTS){1'b0}}, closed}), .outputs(digital), .output_tail(output_tail),

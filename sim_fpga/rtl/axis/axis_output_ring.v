@@ -8,10 +8,6 @@ module axis_output_ring #(
     parameter [7:0] MOST_IN_TAIL = 64
 ) (
     input clk,
-    // The host.
-    input write,
-    input [ENTRY_BITS+1:0] write_address, // {entry, word}
-    input [63:0] write_data,
     input [ENTRY_BITS:0] head,  // low bits of OUTPUT_HEAD
     // The sequencer.
     input [23:0] run,           // low bits of the run
@@ -26,10 +22,10 @@ module axis_output_ring #(
     output [ENTRY_BITS:0] tail, // low bits of OUTPUT_TAIL
     output reg [ENTRY_BITS:0] first, // entries of the present frame are from here on
     output reg [ENTRY_BITS:0] behind, // and before here
-    // The reader of the present frame.
-    input reads,                // the memory shows its word in the next clock
-    input [ENTRY_BITS+1:0] read_address,
-    output [63:0] word
+    // The ring's memory. Others have it while this is paused.
+    input pause,
+    output [ENTRY_BITS+1:0] address, // {entry, word}
+    input [63:0] word
 );
     localparam LOOK = 0, TAG = 1, AT = 2, VALUE = 3, STOP = 4;
     reg [2:0] state;
@@ -43,8 +39,7 @@ module axis_output_ring #(
     reg [42:0] last_in_body, last_in_tail;
     reg [7:0] in_body, in_tail; // changes found, until they are too many
     wire [1:0] number = state == AT ? 2'd1 : state == VALUE ? 2'd2 : 2'd0;
-    axis_ring_memory #(.ENTRY_BITS(ENTRY_BITS)) entries (.clk(clk), .write(write), .write_address(write_address),
-        .write_data(write_data), .read_address(reads ? read_address : {at[ENTRY_BITS-1:0], number}), .word(word));
+    assign address = {at[ENTRY_BITS-1:0], number};
 
     wire [ENTRY_BITS:0] loaded = head - at;
     wire is_empty = loaded == 0 || (loaded[ENTRY_BITS] && loaded[ENTRY_BITS-1:0] != 0);
@@ -65,7 +60,7 @@ module axis_output_ring #(
         is_well = 1;
     end
     always @(posedge clk) begin
-        asked <= !asked && !reads && state != STOP;
+        asked <= !asked && !pause && state != STOP;
         case (state)
             LOOK: begin
                 asked <= 0;

@@ -25,38 +25,39 @@ module axis_outputs #(
     input [39:0] at_silence,
     // The host's words.
     input asks_direct,          // there is a new DIRECT_REQUEST
-    output reads_host,
-    output [6:0] word_address,  // in axis_host_words.v
-    input [63:0] host_word,     // one clock after the address
+    // The host's words and the output ring, in axis_host_memory.v.
+    output reads_word,
+    output [6:0] word_address,
+    output reads_entry,
+    output [ENTRY_BITS+1:0] entry_address,
+    input [63:0] word,          // one clock after the address
     // The ring's entries of the present frame.
     input [23:0] run,
     input [31:0] frame,
     input [ENTRY_BITS:0] first,
     input [ENTRY_BITS:0] behind,
-    output reads,
-    output [ENTRY_BITS+1:0] read_address,
-    input [63:0] word,
-    // A change, for one clock. Its words stay until the event is noted.
+    // A change, for one clock. Until its event is noted, `word` is the value of an analog output that is given one, and
+    // its slope in the clock after `asks_slope`.
     output put,
     output reg is_analog,
     output reg [4:0] channel,
-    output keeps,               // the analog output keeps its value; else it gets this one
-    output [63:0] value,
-    output [63:0] slope,
+    output gives_value,         // else the analog output becomes 0, or keeps its value
+    output keeps_value,
+    output gives_slope,         // else its slope ends
+    input asks_slope,
+    input [7:0] has_slope,
+    input [7:0] is_zero,        // it was given 0, or keeps 0
     input events_busy,
     // What the outputs show.
-    output reg [15:0] levels,
-    output [ANALOG-1:0] slides, // analog outputs with a slope
-    input [7:0] is_zero         // analog outputs that were given 0: at the end of a run, those at 0
+    output reg [15:0] levels
 );
-    localparam REST = 0, DIRECT = 1, CHANNEL = 2, CHANNEL_WORD = 3, NEXT = 4, TAG = 5, AT = 6, VALUE = 7, SLOPE = 8,
-        DIGITAL_CHANGE = 9, ANALOG_CHANGE = 10, NOTE = 11, NOTED = 12, END = 13, SAFE_CHANNEL = 14;
-    localparam [62:0] FULL = 63'd1 << 62;
-    localparam [6:0] DIRECT_OUTPUTS = 7'd12, FIRST_DIRECT_VALUE = 7'd65; // in axis_host_words.v
+    localparam REST = 0, DIRECT = 1, CHANNEL = 2, NEXT = 3, TAG = 4, AT = 5, VALUE = 6, DIGITAL_CHANGE = 7,
+        ANALOG_CHANGE = 8, NOTE = 9, NOTED = 10, END = 11, SAFE_CHANNEL = 12;
+    localparam [6:0] DIRECT_OUTPUTS = 7'd12, FIRST_DIRECT_VALUE = 7'd65; // in axis_host_memory.v
     reg [3:0] state, back;      // `back`: after a change
     reg asked;                  // the memory shows the word
-    reg [39:0] safe;
-    reg is_safe_asked;
+    reg is_silence, is_safe_asked;
+    wire [39:0] safe = is_silence ? at_silence : at_cut;
     reg [7:0] mask;             // the analog outputs that change
     // The list of changes.
     reg is_active, in_tail, is_known, is_usable, begins; // `is_known`: the entry is one of the present list
@@ -64,31 +65,27 @@ module axis_outputs #(
     reg [42:0] since;           // ticks after the start of the body or the tail
     reg [1:0] kind;
     reg [2:0] due_channel;
-    reg [63:0] new_value, new_slope;
-    // The outputs.
-    reg [7:0] has_slope;
+    reg [15:0] new_levels, new_mask;
 
-    wire [15:0] changed_levels = (levels & ~new_value[31:16]) | (new_value[15:0] & new_value[31:16]);
-    wire [62:0] clamped = new_value[63] ? 63'd0 : new_value[62] ? FULL : new_value[62:0];
+    wire [15:0] changed_levels = (levels & ~new_mask) | (new_levels & new_mask);
     wire [7:0] safe_off = safe[39:32];
     wire is_last = {27'd0, channel} == ANALOG;
     assign busy = state != REST;
-    assign reads_host = state == DIRECT || state == CHANNEL_WORD;
+    // While an analog change is noted, its words are read.
+    wire is_given = state == NOTED && is_analog;
+    assign gives_value = back == CHANNEL || back == NEXT;
+    assign keeps_value = back == END;
+    assign gives_slope = back == NEXT;
+    assign reads_word = (state == DIRECT && !asked) || (is_given && back == CHANNEL);
     assign word_address = state == DIRECT ? DIRECT_OUTPUTS : FIRST_DIRECT_VALUE + {1'b0, channel, 1'b0};
-    wire [1:0] number = state == AT ? 2'd1 : state == VALUE ? 2'd2 : state == SLOPE ? 2'd3 : 2'd0;
-    assign reads = (state == TAG || state == AT || state == VALUE || state == SLOPE) && !asked;
-    assign read_address = {at[ENTRY_BITS-1:0], number};
+    assign reads_entry = ((state == TAG || state == AT || state == VALUE) && !asked) || (is_given && back == NEXT);
+    assign entry_address = {at[ENTRY_BITS-1:0], state == TAG ? 2'd0 : state == AT ? 2'd1 : asks_slope ? 2'd3 : 2'd2};
     assign put = state == NOTE && !events_busy;
-    assign keeps = is_analog && back == END;
-    assign value = {1'b0, clamped};
-    assign slope = new_slope;
-    assign slides = has_slope[ANALOG-1:0];
     wire is_this = word[31:8] == run && word[63:32] == frame && word[0] == in_tail;
 
     initial begin
-        {state, back, asked, safe, is_safe_asked, mask, is_active, in_tail, is_known, at, since} = 0;
-        {is_usable, begins, kind, due_channel, new_value, new_slope, levels, is_analog, channel} = 0;
-        has_slope = 0;
+        {state, back, asked, is_silence, is_safe_asked, mask, is_active, in_tail, is_known, at, since} = 0;
+        {is_usable, begins, kind, due_channel, new_levels, new_mask, levels, is_analog, channel} = 0;
     end
     always @(posedge clk) begin
         asked <= busy && !asked && state != NEXT;
@@ -100,29 +97,24 @@ module axis_outputs #(
                 if (due && is_active) state <= NEXT;
                 if (end_run || silence) begin
                     is_active <= 0;
-                    safe <= silence ? at_silence : at_cut;
+                    is_silence <= silence;
                     is_safe_asked <= silence || is_cut;
                     state <= END;
                 end
             end
             // What the host asks for directly: levels, then one channel after the other.
             DIRECT: if (asked) begin
-                new_value <= {32'd0, host_word[31:16] & ((16'd1 << DIGITAL) - 16'd1), host_word[15:0]};
-                mask <= host_word[39:32];
+                new_levels <= word[15:0];
+                new_mask <= word[31:16] & ((16'd1 << DIGITAL) - 16'd1);
+                mask <= word[39:32];
                 back <= CHANNEL;
                 state <= DIGITAL_CHANGE;
             end
             CHANNEL: begin
                 asked <= 0;
                 if (is_last) state <= REST;
-                else if (mask[channel[2:0]]) state <= CHANNEL_WORD;
+                else if (mask[channel[2:0]]) state <= ANALOG_CHANGE;
                 else channel <= channel + 1'b1;
-            end
-            CHANNEL_WORD: if (asked) begin
-                new_value <= host_word;
-                new_slope <= 0;
-                back <= CHANNEL;
-                state <= ANALOG_CHANGE;
             end
             // The changes of the frame.
             NEXT: state <= is_known ? AT : at == behind ? REST : TAG;
@@ -134,13 +126,8 @@ module axis_outputs #(
             end
             AT: if (asked) state <= word[42:0] > since ? REST : VALUE;
             VALUE: if (asked) begin
-                new_value <= word;
-                state <= SLOPE;
-            end
-            SLOPE: if (asked) begin
-                new_slope <= word;
+                {new_mask, new_levels} <= word[31:0];
                 channel <= {2'd0, due_channel};
-                at <= at + 1'b1;
                 is_known <= 0;
                 back <= NEXT;
                 state <= kind == 0 ? DIGITAL_CHANGE : ANALOG_CHANGE;
@@ -151,9 +138,9 @@ module axis_outputs #(
                 is_analog <= 0;
                 state <= changed_levels != levels ? NOTE : back;
                 asked <= 0;
+                if (back == NEXT && changed_levels == levels) at <= at + 1'b1;
             end
             ANALOG_CHANGE: begin
-                has_slope[channel[2:0]] <= new_slope != 0;
                 is_analog <= 1;
                 state <= NOTE;
             end
@@ -161,7 +148,8 @@ module axis_outputs #(
             NOTED: begin
                 asked <= 0;
                 if (!events_busy) begin
-                    if (is_analog && back != NEXT) channel <= channel + 1'b1;
+                    if (back == NEXT) at <= at + 1'b1;
+                    else if (is_analog) channel <= channel + 1'b1;
                     state <= back;
                 end
             end
@@ -169,11 +157,10 @@ module axis_outputs #(
             END: begin
                 if (is_last) begin
                     channel <= 0;
-                    new_value <= {32'd0, safe[31:0]};
+                    {new_mask, new_levels} <= safe[31:0];
                     back <= SAFE_CHANNEL;
                     state <= is_safe_asked ? DIGITAL_CHANGE : REST;
                 end else if (has_slope[channel[2:0]]) begin
-                    new_slope <= 0;
                     back <= END;
                     state <= ANALOG_CHANGE;
                 end else channel <= channel + 1'b1;
@@ -181,7 +168,6 @@ module axis_outputs #(
             SAFE_CHANNEL: begin
                 if (is_last) state <= REST;
                 else if (safe_off[channel[2:0]] && !is_zero[channel[2:0]]) begin
-                    {new_value, new_slope} <= 0;
                     back <= SAFE_CHANNEL;
                     state <= ANALOG_CHANGE;
                 end else channel <= channel + 1'b1;

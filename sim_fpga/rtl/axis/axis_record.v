@@ -21,22 +21,25 @@ module axis_record #(
     output capture_full,
     // A run ends by its trigger, for one clock.
     input triggered,
-    // A setup was taken, for one clock: host_word becomes SETUP_REQUEST.
+    // A setup was taken, for one clock. In the clock after `asks_request`, host_word is SETUP_REQUEST.
     input setup_taken,
+    output asks_request,
     input [63:0] host_word,
-    // An event, for one clock while it is not busy. That of an analog output gives it this value and this slope.
+    // An event, for one clock while it is not busy.
     input put,
-    input keeps,                // the analog output keeps its value
     input [1:0] kind,           // as in WHAT
     input [4:0] channel,
     input [15:0] levels,
-    input [63:0] value,
-    input [63:0] slope,
+    // What it gives an analog output: axis_outputs.v.
+    input gives_value,
+    input keeps_value,
+    input gives_slope,
+    output asks_slope,
+    output reg [7:0] has_slope,
+    output reg [7:0] is_zero,
     input [EVENT_BITS:0] event_tail, // low bits of EVENT_TAIL
     // A tick, for one clock.
     input tick,
-    input [ANALOG-1:0] slides,  // the analog outputs with a slope
-    output reg [7:0] is_zero,   // the analog output was given 0
     output [127:0] analog,      // what they show: 16 bits each, of 2^-15 of full scale
     // The words are published, for one clock.
     input publish,
@@ -67,13 +70,14 @@ module axis_record #(
     localparam [5:0] SEQUENCE = 0, NOW = 1, STATUS = 2, COUNT = 3, PHASE = 4, VELOCITY = 5, RUN = 6, FRAME = 7,
         TRIGGER_COUNT = 8, ENCODER = 9, SEGMENT_TAIL = 10, CAPTURE_HEAD = 11, CAPTURE_LOST = 12, CAPTURE_SUM = 13,
         CAPTURE_SUMS = 14, SETUP = 15, INPUTS = 16, OUTPUTS = 17, OUTPUT_TAIL = 18, EVENT_HEAD = 19, EVENT_LOST = 20,
-        ANALOG_LOWER = 22, ANALOG_UPPER = 23, LAST = 23, WHAT = 24, NEW_VALUE = 25, NEW_SLOPE = 26, STEP = 27,
-        SEGMENTS_TAKEN = 28, OUTPUTS_TAKEN = 29, HOST = 30, ZERO = 31;
+        ANALOG_LOWER = 22, ANALOG_UPPER = 23, LAST = 23, WHAT = 24, STEP = 25,
+        SEGMENTS_TAKEN = 26, OUTPUTS_TAKEN = 27, HOST = 28, ZERO = 31;
     localparam [1:0] VALUES = 2, SLOPES = 3; // {one of them, 1'b0, output}
     localparam [4:0] REST = 0, STEP_HEAD = 1, STEP_LOST = 2, STEP_SUM = 3, STEP_SUMMED = 4, STEP_SUMS = 5, STEP_END = 6,
-        TRIGGERED = 7, NOTE_TICK = 8, NOTE_WHAT = 9, NOTE_VALUE = 10, NOTE_DETAIL = 11, NOTE_SLOPE = 12, SLIDE = 13,
-        SLIDE_SLOPE = 14, SLIDE_VALUE = 15, OPEN = 16, OPENED = 17, TAKE_SEGMENTS = 18, SEGMENTS_TAKE = 19,
-        TAKE_OUTPUTS = 20, OUTPUTS_TAKE = 21, BEGIN = 22, SHOW = 23, TAKE_SETUP = 24, SETUP_TAKEN = 25;
+        TRIGGERED = 7, NOTE_TICK = 8, NOTE_WHAT = 9, NOTE_VALUE = 10, NOTE_DETAIL = 11, SLIDE = 12,
+        SLIDE_SLOPE = 13, SLIDE_VALUE = 14, OPEN = 16, OPENED = 17, TAKE_SEGMENTS = 18, SEGMENTS_TAKE = 19,
+        TAKE_OUTPUTS = 20, OUTPUTS_TAKE = 21, BEGIN = 22, SHOW = 23, ASK_SETUP = 24, TAKE_SETUP = 25, SETUP_TAKEN = 26,
+        GIVE_VALUE = 27, GIVE_SLOPE = 28, SLOPE_GIVEN = 29;
     localparam SHOWN_BITS = EVENT_BITS + 2 > 5 ? EVENT_BITS + 2 : 5;
     reg [4:0] state, next;
     reg asks_step, asks_trigger, asks_event, asks_slide, asks_setup;
@@ -81,7 +85,7 @@ module axis_record #(
     reg [1:0] its_kind;         // the event
     reg [4:0] its_channel;
     reg [15:0] its_levels;
-    reg is_lost, keeps_value;
+    reg is_lost;
     reg [2:0] output_at;        // the analog output
     reg [ANALOG-1:0] slides_left;
     reg [5:0] number;           // the word that is published
@@ -94,8 +98,10 @@ module axis_record #(
     reg [63:0] counted_word, addend;
     reg counts, carry, adds;    // `adds`: `word` is the next clock's addend
     wire [64:0] sum = {1'b0, counted_word} + {1'b0, addend} + {64'd0, carry};
-    wire is_below = state == SLIDE_VALUE && addend[63] && !sum[64];
-    wire is_full = state == SLIDE_VALUE && !addend[63] && sum[63:62] != 0;
+    wire is_nothing = addend == 0;
+    wire is_analog = state == SLIDE_VALUE || state == GIVE_SLOPE;
+    wire is_below = is_analog && addend[63] && !sum[64];
+    wire is_full = is_analog && !addend[63] && sum[63:62] != 0;
     wire [63:0] kept = is_below || is_full ? {1'b0, is_full, 62'd0} : sum[63:0];
 
     // The word that is published, put into a ring, or added.
@@ -117,8 +123,6 @@ module axis_record #(
         ANALOG_LOWER: word = analog[63:0];
         ANALOG_UPPER: word = analog[127:64];
         WHAT: word = {32'd0, its_levels, 3'd0, its_channel, 6'd0, its_kind};
-        NEW_VALUE: word = value;
-        NEW_SLOPE: word = slope;
         SEGMENTS_TAKEN: word = {{(63 - SEGMENT_BITS){1'b0}}, segments_taken};
         OUTPUTS_TAKEN: word = {{(63 - OUTPUT_BITS){1'b0}}, outputs_taken};
         STEP: word = {now[62:0], goes_forward};
@@ -141,6 +145,8 @@ module axis_record #(
     wire [EVENT_BITS:0] events_used = events_head - event_tail;
     assign capture_full = steps_used[CAPTURE_BITS];
     wire events_full = events_used[EVENT_BITS];
+    assign asks_request = state == ASK_SETUP;
+    assign asks_slope = state == GIVE_VALUE;
     assign busy = asks_step || asks_slide || asks_trigger || asks_event || asks_setup ||
         (state != REST && (state < OPEN || state > SHOW));
 
@@ -164,7 +170,7 @@ module axis_record #(
                 next = NOTE_TICK;
                 read = EVENT_HEAD;
             end else if (asks_setup) begin
-                next = TAKE_SETUP;
+                next = ASK_SETUP;
             end else if (publish_busy) begin
                 next = OPEN;
                 read = SEQUENCE;
@@ -210,30 +216,40 @@ module axis_record #(
                 read = EVENT_LOST;
             end
             NOTE_WHAT: begin
-                next = NOTE_VALUE;
+                next = its_kind == 2 ? GIVE_VALUE : NOTE_VALUE;
                 counts = 1;
                 carry = is_lost;
                 select = WHAT;
                 shows = !is_lost;
-                read = keeps_value ? {VALUES, 1'b0, its_channel[2:0]} : ZERO;
+                read = its_kind == 2 && keeps_value ? {VALUES, 1'b0, its_channel[2:0]} : ZERO;
+            end
+            GIVE_VALUE: begin
+                next = GIVE_SLOPE;
+                select = gives_value ? HOST : ZERO;
+                adds = 1;
+            end
+            GIVE_SLOPE: begin
+                next = SLOPE_GIVEN;
+                counts = 1;
+                counts_as = {VALUES, 1'b0, its_channel[2:0]};
+                select = gives_slope ? HOST : ZERO;
+                adds = 1;
+            end
+            SLOPE_GIVEN: begin
+                next = NOTE_VALUE;
+                counts = 1;
+                counts_as = {SLOPES, 1'b0, its_channel[2:0]};
+                read = {VALUES, 1'b0, its_channel[2:0]};
             end
             NOTE_VALUE: begin
                 next = NOTE_DETAIL;
-                select = its_kind != 2 ? COUNT : keeps_value ? ZERO : NEW_VALUE;
+                select = its_kind == 2 ? ZERO : COUNT;
                 shows = !is_lost;
-                adds = 1;
+                read = its_kind == 2 ? {SLOPES, 1'b0, its_channel[2:0]} : ZERO;
             end
             NOTE_DETAIL: begin
-                next = its_kind == 2 ? NOTE_SLOPE : REST;
-                select = its_kind == 2 ? NEW_SLOPE : its_kind == 0 ? PHASE : ZERO;
+                select = its_kind == 0 ? PHASE : ZERO;
                 shows = !is_lost;
-                adds = 1;
-                counts = its_kind == 2;
-                counts_as = {VALUES, 1'b0, its_channel[2:0]};
-            end
-            NOTE_SLOPE: begin
-                counts = 1;
-                counts_as = {SLOPES, 1'b0, its_channel[2:0]};
             end
             SLIDE: if (slides_left != 0) begin
                 next = slides_left[0] ? SLIDE_SLOPE : SLIDE;
@@ -248,6 +264,7 @@ module axis_record #(
                 next = SLIDE;
                 counts = 1;
             end
+            ASK_SETUP: next = TAKE_SETUP;
             TAKE_SETUP: begin
                 next = SETUP_TAKEN;
                 select = HOST;
@@ -316,7 +333,7 @@ module axis_record #(
     initial begin
         {state, asks_step, asks_trigger, asks_event, goes_forward, was_full, its_kind, its_channel, its_levels} = 0;
         {is_lost, number, is_closing, asked, counted_word, addend, steps_head, events_head, entry} = 0;
-        {publish_busy, is_published, asks_slide, keeps_value, output_at, slides_left, asks_setup} = 0;
+        {publish_busy, is_published, asks_slide, output_at, slides_left, asks_setup, has_slope} = 0;
         is_zero = 8'hff;
         for (i = 0; i < 64; i = i + 1) counted[i] = 0;
         for (i = 0; i < 32; i = i + 1) shown[i] = 0;
@@ -336,7 +353,7 @@ module axis_record #(
     always @(posedge clk) begin
         state <= next;
         asks_step <= step || (asks_step && state != REST);
-        asks_slide <= tick ? slides != 0 : asks_slide && (state != REST || asks_step);
+        asks_slide <= tick ? has_slope[ANALOG-1:0] != 0 : asks_slide && (state != REST || asks_step);
         asks_trigger <= triggered || (asks_trigger && (state != REST || asks_step || asks_slide));
         asks_event <= put || (asks_event && (state != REST || asks_step || asks_slide || asks_trigger));
         asks_setup <= setup_taken || (asks_setup && state != TAKE_SETUP);
@@ -350,18 +367,18 @@ module axis_record #(
             its_channel <= channel;
             its_levels <= levels;
             is_lost <= events_full;
-            keeps_value <= keeps;
             entry <= events_head[EVENT_BITS-1:0];
             if (!events_full) events_head <= events_head + 1'b1;
         end
         if (state == REST) begin
-            slides_left <= slides;
+            slides_left <= has_slope[ANALOG-1:0];
             output_at <= 0;
         end else if ((state == SLIDE && !slides_left[0]) || state == SLIDE_VALUE) begin
             slides_left <= slides_left >> 1;
             output_at <= output_at + 1'b1;
         end
-        if (state == NOTE_DETAIL && its_kind == 2) is_zero[its_channel[2:0]] <= addend == 0;
+        if (state == GIVE_SLOPE) is_zero[its_channel[2:0]] <= is_nothing || is_below;
+        if (state == SLOPE_GIVEN) has_slope[its_channel[2:0]] <= !is_nothing;
         if (publish && !hold) publish_busy <= 1;
         if (state == SHOW) begin
             number <= number == LAST || is_closing ? 6'd0 : number + 1'b1;

@@ -13,7 +13,8 @@ module axis_setup #(
     output busy,                // reading, from the clock after `start` on
     output taken,               // for the last clock: the setup is that of the host's words
     output refused,             // for the last clock: the device cannot do it, and its setup is as before
-    output [6:0] address,       // in axis_host_words.v; at rest that of SETUP_REQUEST
+    output reads,
+    output [6:0] address,       // in axis_host_memory.v; at rest that of SETUP_REQUEST
     input [63:0] word,
     output reg [TIME_BITS-1:0] step_width,
     output reg [TIME_BITS-1:0] direction_setup,
@@ -41,7 +42,7 @@ module axis_setup #(
     localparam STEP_WIDTH = 0, DIRECTION_SETUP = 1, DIRECTION_HOLD = 2, ENABLE_TICKS = 3, INVERTED = 4,
         INPUTS_INVERTED = 5, LIMIT_MIN = 6, LIMIT_MAX = 7, HOME = 8, STOP = 9, OUTPUTS_INVERTED = 10, AT_CUT = 11,
         AT_SILENCE = 12, SILENCE_TICKS = 13, COMPARE_OUTPUTS = 14, DEBOUNCE = 16, PWM_PERIOD = 48, LAST = 55;
-    localparam [5:0] REQUEST = 32, FIRST_WORD = 33, INPUT_TABLE = 32; // where they begin in axis_host_words.v
+    localparam [5:0] REQUEST = 32, FIRST_WORD = 33, INPUT_TABLE = 32; // in axis_host_memory.v
     localparam REST = 0, CHECK = 1, TAKE = 2;
     reg [1:0] state;
     reg [5:0] at;
@@ -67,6 +68,7 @@ module axis_setup #(
     wire is_last = at == LAST && asked;
     wire [31:0] ticks = word[63:32] != 0 ? 32'hffffffff : word[31:0];
     assign busy = state != REST;
+    assign reads = busy && !asked;
     assign taken = state == TAKE && is_last;
     assign refused = state == CHECK && asked && !is_possible;
     assign set_debounce = is_read && is_debounce;
