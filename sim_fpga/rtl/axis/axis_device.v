@@ -53,6 +53,34 @@ module axis_device #(
     `include "registers.vh"
     // verilator lint_on UNUSED
 
+    // The constants of the map, each at its offset.
+    function [2047:0] placed(input [19:0] offset, input [63:0] value);
+        begin
+            placed = 0;
+            placed[8*offset +: 64] = value;
+        end
+    endfunction
+    localparam [2047:0] CONSTANTS =
+        placed(LOCKSTEP_MAGIC, LOCKSTEP_MAGIC_VALUE) |
+        placed(LOCKSTEP_VERSION, LOCKSTEP_VERSION_VALUE) |
+        placed(LOCKSTEP_MAP_CHECKSUM, LOCKSTEP_MAP_CHECKSUM_VALUE) |
+        placed(LOCKSTEP_TICK_NS, TICK_NS) |
+        placed(LOCKSTEP_SEGMENT_ENTRIES, 64'd1 << SEGMENT_BITS) |
+        placed(LOCKSTEP_CAPTURE_ENTRIES, 64'd1 << CAPTURE_BITS) |
+        placed(LOCKSTEP_LEAST_STEP_TICKS, LEAST_STEP_TICKS) |
+        placed(LOCKSTEP_TIME_UNIT_PS, TIME_UNIT_PS) |
+        placed(LOCKSTEP_LONGEST_TIME, (64'd1 << TIME_BITS) - 1'b1) |
+        placed(LOCKSTEP_LONGEST_PWM_PERIOD, (64'd1 << TIME_BITS) - 1'b1) |
+        placed(LOCKSTEP_LONGEST_PIECE_TICKS, 64'hffffffff) |
+        placed(LOCKSTEP_LEAD_TICKS, LEAD_TICKS) |
+        placed(LOCKSTEP_PIN_TICKS, PIN_TICKS) |
+        placed(LOCKSTEP_INPUT_CHANNELS, INPUTS) |
+        placed(LOCKSTEP_DIGITAL_CHANNELS, DIGITAL) |
+        placed(LOCKSTEP_ANALOG_CHANNELS, ANALOG) |
+        placed(LOCKSTEP_OUTPUT_ENTRIES, 64'd1 << OUTPUT_BITS) |
+        placed(LOCKSTEP_EVENT_ENTRIES, 64'd1 << EVENT_BITS) |
+        placed(LOCKSTEP_FEATURES, 64'd1 << LOCKSTEP_FEATURES_ENABLE_BIT | 64'd1 << LOCKSTEP_FEATURES_FRAMES_STAY_BIT);
+
     wire [63:0] run_request, armed, veto, stop;
     wire [SEGMENT_BITS:0] segment_head;
     wire [OUTPUT_BITS:0] output_head;
@@ -62,8 +90,9 @@ module axis_device #(
     wire [32:0] trigger;
     wire enable, start_setup, setup_busy, beats, look_at_host, asks_direct, direct_outputs, asks_setup;
     axis_host_words #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS), .SEGMENT_BITS(SEGMENT_BITS),
-        .OUTPUT_BITS(OUTPUT_BITS)) host_words (.clk(clk), .write(write), .write_address(write_address),
-        .write_data(write_data), .read_address({read_address[13], read_address[8:3]}), .read_word(host_word),
+        .OUTPUT_BITS(OUTPUT_BITS), .CONSTANTS(CONSTANTS)) host_words (.clk(clk), .write(write), .write_address(write_address),
+        .write_data(write_data), .read_address({read_address[13:12] == 0, read_address[13], read_address[8:3]}),
+        .read_word(host_word),
         .run_request(run_request), .trigger(trigger), .armed(armed), .veto(veto), .stop(stop), .enable(enable),
         .segment_head(segment_head), .capture_tail(capture_tail), .event_tail(event_tail), .output_head(output_head),
         .beats(beats), .take_beat(look_at_host), .asks_direct(asks_direct), .take_direct(direct_outputs),
@@ -206,36 +235,12 @@ module axis_device #(
 
     // What the host reads.
     reg [19:3] address;         // a clock later, with the memories' words
-    reg [63:0] constant;
-    always @* case ({address, 3'd0})
-        LOCKSTEP_MAGIC: constant = is_published ? LOCKSTEP_MAGIC_VALUE : 64'd0;
-        LOCKSTEP_VERSION: constant = LOCKSTEP_VERSION_VALUE;
-        LOCKSTEP_MAP_CHECKSUM: constant = LOCKSTEP_MAP_CHECKSUM_VALUE;
-        LOCKSTEP_TICK_NS: constant = TICK_NS;
-        LOCKSTEP_POWER_UP: constant = power_up;
-        LOCKSTEP_SEGMENT_ENTRIES: constant = 64'd1 << SEGMENT_BITS;
-        LOCKSTEP_CAPTURE_ENTRIES: constant = 64'd1 << CAPTURE_BITS;
-        LOCKSTEP_LEAST_STEP_TICKS: constant = LEAST_STEP_TICKS;
-        LOCKSTEP_TIME_UNIT_PS: constant = TIME_UNIT_PS;
-        LOCKSTEP_LONGEST_TIME, LOCKSTEP_LONGEST_PWM_PERIOD: constant = (64'd1 << TIME_BITS) - 1'b1;
-        LOCKSTEP_LONGEST_PIECE_TICKS: constant = 64'hffffffff;
-        LOCKSTEP_LEAD_TICKS: constant = LEAD_TICKS;
-        LOCKSTEP_PIN_TICKS: constant = PIN_TICKS;
-        LOCKSTEP_INPUT_CHANNELS: constant = INPUTS;
-        LOCKSTEP_DIGITAL_CHANNELS: constant = DIGITAL;
-        LOCKSTEP_ANALOG_CHANNELS: constant = ANALOG;
-        LOCKSTEP_OUTPUT_ENTRIES: constant = 64'd1 << OUTPUT_BITS;
-        LOCKSTEP_EVENT_ENTRIES: constant = 64'd1 << EVENT_BITS;
-        LOCKSTEP_FEATURES: constant = 64'd1 << LOCKSTEP_FEATURES_ENABLE_BIT |
-            64'd1 << LOCKSTEP_FEATURES_FRAMES_STAY_BIT;
-        default: constant = 0;
-    endcase
     wire is_event = address[19:16] == LOCKSTEP_EVENT_RING[19:16];
     wire is_device_word = address[19:9] == 0 && address[8];
-    wire is_host_word = address[19:14] == 0 && address[13] != address[12];
+    wire is_power_up = {address, 3'd0} == LOCKSTEP_POWER_UP;
     always @(posedge clk) begin
         address <= read_address;
-        read_data <= address[19] ? captured_step : is_event || is_device_word ? shown_word : is_host_word ? host_word :
-            constant;
+        read_data <= !is_published ? 64'd0 : address[19] ? captured_step : is_event || is_device_word ? shown_word :
+            is_power_up ? power_up : host_word;
     end
 endmodule

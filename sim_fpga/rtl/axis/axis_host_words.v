@@ -1,5 +1,5 @@
 // The host's words of the register map. Those that the sequencer compares in each tick are in registers. All of them
-// are in memory, where the host reads them again.
+// are in memory, where the host reads them again. There are the constants of the map, too.
 //
 // A word is put into memory a clock after it was written, beside the word that was there, so a new number is noticed
 // where it is written. The host does not read in the clock in which it writes, nor that word in the next one.
@@ -7,13 +7,14 @@ module axis_host_words #(
     parameter CAPTURE_BITS = 8,
     parameter EVENT_BITS = 4,
     parameter SEGMENT_BITS = 8,
-    parameter OUTPUT_BITS = 5
+    parameter OUTPUT_BITS = 5,
+    parameter [2047:0] CONSTANTS = 2048'd0 // the words of the map from 0 to 0xF8
 ) (
     input clk,
     input write,
     input [19:3] write_address, // of a word in the map
     input [63:0] write_data,
-    input [6:0] read_address,    // {is in a table, word}
+    input [7:0] read_address,   // {is constant, is in a table, word}
     output reg [63:0] read_word, // one clock after the address
     output reg [63:0] run_request,
     output reg [32:0] trigger,
@@ -41,20 +42,21 @@ module axis_host_words #(
     // 0x1000 to 0x11F8 and 0x2000 to 0x21F8, which are the tables.
     wire is_host_word = write_address[19:14] == 0 && write_address[13] != write_address[12] && write_address[11:9] == 0;
     wire [6:0] at = {write_address[13], write_address[8:3]};
-    (* no_rw_check *) reg [63:0] words[0:127];
+    (* no_rw_check *) reg [63:0] words[0:255];
     reg written;
     reg [6:0] written_at;
     reg [63:0] data;
     wire is_new = written && data != read_word;
     integer i;
     initial begin
-        for (i = 0; i < 128; i = i + 1) words[i] = 0;
+        for (i = 0; i < 256; i = i + 1) words[i] = 0;
+        for (i = 0; i < 32; i = i + 1) words[128 + i] = CONSTANTS[64*i +: 64];
         {run_request, trigger, armed, veto, stop, segment_head, capture_tail, event_tail, output_head, enable} = 0;
         {written, written_at, data, beats, asks_direct, asks_setup} = 0;
     end
     always @(posedge clk) begin
-        if (written) words[written_at] <= data;
-        read_word <= words[write ? at : read_address];
+        if (written) words[{1'b0, written_at}] <= data;
+        read_word <= words[write ? {1'b0, at} : read_address];
     end
     always @(posedge clk) begin
         written <= write && is_host_word;
