@@ -124,9 +124,9 @@ module axis_device #(
         .at_cut(at_cut), .at_silence(at_silence),
         .disables_at_silence(disables_at_silence), .silence_ticks(silence_ticks));
 
-    wire [63:0] now, count, run, frame, phase, velocity;
+    wire [63:0] now, run, frame;
     wire [SEGMENT_BITS:0] segment_tail;
-    wire ticks, look, inputs_busy, judge_host, falls_silent, is_host_silent, accelerate, travel;
+    wire ticks, look, inputs_busy, judge_host, falls_silent, is_host_silent, accelerate, travel, check, engine_done;
     wire [INPUTS-1:0] closed;
     wire input_changes, changed_closed, events_busy;
     wire [4:0] changed_input;
@@ -143,8 +143,10 @@ module axis_device #(
     axis_host_watch host_watch (.clk(clk), .begins(setup_taken), .look(look_at_host), .beats(beats), .tick(ticks),
         .judge(judge_host), .patience(silence_ticks), .falls_silent(falls_silent), .is_silent(is_host_silent));
 
-    wire fetch, drop_own, drop_others, take, frame_settled, frame_valid, frame_good, frame_is_last, frame_is_of_run;
-    wire [SEGMENT_BITS+1:0] fetch_address, scan_address;
+    wire load, drop_own, drop_others, take, frame_settled, frame_valid, frame_good, frame_is_last, frame_is_of_run;
+    wire [SEGMENT_BITS-1:0] piece;
+    wire [1:0] piece_field;
+    wire [SEGMENT_BITS+1:0] scan_address;
     wire [SEGMENT_BITS:0] frame_at;
     wire [63:0] piece_word, frame_start, frame_phase;
     wire [31:0] frame_number, frame_count;
@@ -152,9 +154,9 @@ module axis_device #(
     wire is_segment_write = write && write_address[19:17] == LOCKSTEP_SEGMENT_RING[19:17];
     axis_ring_memory #(.ENTRY_BITS(SEGMENT_BITS)) segments (.clk(clk), .write(is_segment_write),
         .write_address(write_address[SEGMENT_BITS+4:3]), .write_data(write_data),
-        .read_address(fetch ? fetch_address : scan_address), .word(piece_word));
+        .read_address(load ? {piece, piece_field} : scan_address), .word(piece_word));
     axis_frame_scanner #(.ENTRY_BITS(SEGMENT_BITS)) scanner (.clk(clk), .head(segment_head), .run(run[23:0]),
-        .drop_own(drop_own), .drop_others(drop_others), .take(take), .pause(fetch), .address(scan_address),
+        .drop_own(drop_own), .drop_others(drop_others), .take(take), .pause(load), .address(scan_address),
         .word(piece_word), .settled(frame_settled), .valid(frame_valid), .good(frame_good), .taken(frame_at),
         .is_last(frame_is_last), .is_of_run(frame_is_of_run), .number(frame_number), .start(frame_start),
         .count(frame_count), .body_pieces(frame_body_pieces), .tail_pieces(frame_tail_pieces), .phase(frame_phase));
@@ -180,13 +182,7 @@ module axis_device #(
         .gives_slope(gives_slope), .asks_slope(asks_slope), .has_slope(has_slope), .is_zero(is_zero),
         .events_busy(events_busy), .levels(digital));
 
-    wire load_ticks, load_velocity, load_acceleration, halt, rebase, idle, overflow, engine_step, engine_backward;
-    wire [63:0] rebase_phase;
-    axis_engine engine (.clk(clk), .word(piece_word), .load_ticks(load_ticks), .load_velocity(load_velocity),
-        .load_acceleration(load_acceleration), .accelerate(accelerate), .travel(travel), .halt(halt),
-        .rebase(rebase), .rebase_phase(rebase_phase), .phase(phase), .velocity(velocity), .idle(idle),
-        .overflow(overflow), .step(engine_step), .backward(engine_backward));
-
+    wire halt, rebase, rest, idle, overflow, engine_step, engine_backward, is_same_phase;
     wire capture_full, triggered, publish, publish_busy;
     wire [16:0] status;
     axis_sequencer #(.INPUTS(INPUTS), .ENTRY_BITS(SEGMENT_BITS), .SETTLE_CLOCKS(SETTLE_CLOCKS)) sequencer (.clk(clk),
@@ -205,20 +201,23 @@ module axis_device #(
         .frame_settled(frame_settled), .frame_valid(frame_valid), .frame_good(frame_good), .frame_at(frame_at),
         .frame_is_last(frame_is_last), .frame_is_of_run(frame_is_of_run), .frame_number(frame_number),
         .frame_start(frame_start), .frame_count(frame_count), .frame_body_pieces(frame_body_pieces),
-        .frame_tail_pieces(frame_tail_pieces), .frame_phase(frame_phase), .fetch(fetch),
-        .fetch_address(fetch_address), .load_ticks(load_ticks), .load_velocity(load_velocity),
-        .load_acceleration(load_acceleration), .accelerate(accelerate), .travel(travel), .halt(halt),
-        .rebase(rebase), .rebase_phase(rebase_phase), .phase(phase), .idle(idle), .overflow(overflow),
+        .frame_tail_pieces(frame_tail_pieces), .frame_phase(frame_phase), .load(load), .piece(piece),
+        .accelerate(accelerate), .travel(travel), .check(check), .done(engine_done), .is_same_phase(is_same_phase),
+        .halt(halt), .rebase(rebase), .rest(rest), .idle(idle), .overflow(overflow),
         .engine_step(engine_step), .engine_backward(engine_backward), .step(step), .forward(forward),
         .capture_full(capture_full), .publish(publish), .publish_busy(publish_busy), .now(now), .status(status),
-        .count(count), .run(run), .frame(frame), .triggered(triggered), .segment_tail(segment_tail),
+        .run(run), .frame(frame), .triggered(triggered), .segment_tail(segment_tail),
         .enabled(enabled));
 
     wire [63:0] shown_word, captured_step;
     wire is_published;
     wire is_event_read = read_address[19:16] == LOCKSTEP_EVENT_RING[19:16];
-    axis_record #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS), .SEGMENT_BITS(SEGMENT_BITS),
-        .OUTPUT_BITS(OUTPUT_BITS), .ANALOG(ANALOG)) record (.clk(clk), .busy(events_busy),
+    axis_adder #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS), .SEGMENT_BITS(SEGMENT_BITS),
+        .OUTPUT_BITS(OUTPUT_BITS), .ANALOG(ANALOG)) adder (.clk(clk), .busy(events_busy),
+        .load(load), .piece_field(piece_field), .piece_word(piece_word), .accelerate(accelerate), .travel(travel),
+        .check(check), .done(engine_done), .is_same_phase(is_same_phase), .frame_phase(frame_phase),
+        .rebase(rebase), .rest(rest), .halt(halt), .idle(idle), .overflow(overflow), .engine_step(engine_step),
+        .backward(engine_backward),
         .step(step), .forward(forward), .capture_tail(capture_tail), .capture_full(capture_full),
         .triggered(triggered), .setup_taken(setup_taken), .asks_request(asks_request),
         .host_word(device_word), .put(input_changes || output_changes),
@@ -227,8 +226,7 @@ module axis_device #(
         .levels(!output_changes ? {15'd0, changed_closed} : is_analog ? 16'd0 : digital), .gives_value(gives_value),
         .keeps_value(keeps_value), .gives_slope(gives_slope), .asks_slope(asks_slope), .has_slope(has_slope),
         .is_zero(is_zero), .tick(ticks), .analog(analog), .event_tail(event_tail), .publish(publish), .hold(hold), .publish_busy(publish_busy),
-        .is_published(is_published), .now(now), .status(status), .count(count), .phase(phase), .velocity(velocity),
-        .run(run), .frame(frame), .segment_tail(segment_tail),
+        .is_published(is_published), .now(now), .status(status), .run(run), .frame(frame), .segment_tail(segment_tail),
         .inputs({{(32 - INPUTS){1'b0}}, closed}), .outputs(digital), .output_tail(output_tail),
         .reads_event(is_event_read), .read_event(read_address[EVENT_BITS+4:3]), .read_word_number(read_address[7:3]),
         .read_word(shown_word), .read_entry(read_address[CAPTURE_BITS+2:3]), .read_step(captured_step));

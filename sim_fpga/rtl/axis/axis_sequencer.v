@@ -72,21 +72,20 @@ module axis_sequencer #(
     input [15:0] frame_body_pieces,
     input [15:0] frame_tail_pieces,
     input [63:0] frame_phase,
-    // The pieces, and the engine that runs them.
-    output fetch,               // the ring's memory is the sequencer's
-    output [ENTRY_BITS+1:0] fetch_address,
-    output load_ticks,
-    output load_velocity,
-    output load_acceleration,
+    // The pieces, and the engine that runs them: axis_adder.v. It does these until `done`.
+    output load,                // the ring's memory is its own meanwhile
+    output reg [ENTRY_BITS-1:0] piece, // the present one in the ring
     output accelerate,
     output travel,
+    output check,
+    input done,
+    input is_same_phase,        // a clock after `done` of the check
     output halt,
     output rebase,
-    output [63:0] rebase_phase,
-    input [63:0] phase,
+    output rest,
     input idle,
     input overflow,
-    input engine_step,          // a clock after `travel`
+    input engine_step,          // a clock after `done` of the travel
     input engine_backward,
     // The steps.
     output step,                // for one clock
@@ -97,7 +96,6 @@ module axis_sequencer #(
     input publish_busy,
     output reg [63:0] now,
     output [16:0] status,
-    output reg [63:0] count,
     output reg [63:0] run,
     output reg [63:0] frame,
     output triggered,           // for one clock: the run ends by its trigger
@@ -126,9 +124,8 @@ module axis_sequencer #(
     reg [15:0] run_bits;
     reg is_last;
     reg [15:0] body_left, tail_left; // pieces, with the present one
-    reg [ENTRY_BITS-1:0] piece; // the present one in the ring
     reg [ENTRY_BITS:0] frame_begin;     // where the present frame begins in the ring
-    reg [1:0] fetched;
+    reg [31:0] count;           // low bits of COUNT
     reg is_set_up, is_refused;  // a setup was taken; the last one was refused
     reg is_enabled;
     reg [31:0] enabled_for;
@@ -144,7 +141,7 @@ module axis_sequencer #(
 
     // The next frame: 1 while the run waits for it. What SETTLE compares in its last clock, ACT decides about.
     reg [63:0] number;
-    reg is_vetoed, is_armed, is_of_request, is_number, is_past, is_now, is_place, rests, is_same_phase;
+    reg is_vetoed, is_armed, is_of_request, is_number, is_past, is_now, is_place, rests;
     always @(posedge clk) begin
         number <= frame + 1'b1;
         is_vetoed <= veto <= number;
@@ -153,9 +150,8 @@ module axis_sequencer #(
         is_number <= frame_number == number[31:0];
         is_past <= $signed(frame_start) <= $signed(now);
         is_now <= frame_start == now;
-        is_place <= frame_count == count[31:0];
+        is_place <= frame_count == count;
         rests <= frame_phase == REST_PHASE || frame_phase == REST_PHASE - 1'b1;
-        is_same_phase <= frame_phase == phase;
     end
     wire may_run = !is_vetoed && is_armed && is_of_request && may_move;
     wire is_here = is_now && is_place;
@@ -230,21 +226,18 @@ module axis_sequencer #(
     assign drop_others = state == SETTLE && motion == WAITING;
     assign take = state == ACT && (starts || follows);
     assign rebase = (state == ACT && begins_run && joins) || (ends && into_limit);
-    assign rebase_phase = ends && into_limit ? REST_PHASE : frame_phase;
+    assign rest = into_limit;
     assign halt = ends;
     assign changes_run = ends || takes_run;
     assign triggered = ends && reason[7];
-    assign fetch = state == FETCH;
-    assign fetch_address = {piece, fetched};
-    assign load_ticks = fetch && fetched == 1;
-    assign load_velocity = fetch && fetched == 2;
-    assign load_acceleration = fetch && fetched == 3;
+    assign load = state == FETCH;
     assign accelerate = state == ACCELERATE && in_motion;
     assign travel = state == TRAVEL && in_motion && !overflow;
+    assign check = state == SETTLE;
     assign step = state == STEP && engine_step && !is_blocked;
     assign forward = !engine_backward;
     assign publish = state == PUBLISH;
-    assign ticks = state == TRAVEL;
+    assign ticks = state == TRAVEL && (done || !travel);
     assign enabled = is_enabled;
     assign segment_tail = in_motion ? frame_begin : frame_at;
 
@@ -257,8 +250,8 @@ module axis_sequencer #(
         back = IDLE;
         {owed, has_lost_ticks, is_after, motion, waited, trigger, run_bits, is_last, body_left, tail_left} = 0;
         {piece, frame_begin} = 0;
-        {fetched, is_set_up, is_refused, is_enabled, enabled_for, stepped, stepped_backward, into_limit} = 0;
-        {number, is_vetoed, is_armed, is_of_request, is_number, is_past, is_now, is_place, rests, is_same_phase} = 0;
+        {is_set_up, is_refused, is_enabled, enabled_for, stepped, stepped_backward, into_limit} = 0;
+        {number, is_vetoed, is_armed, is_of_request, is_number, is_past, is_now, is_place, rests} = 0;
         {now, count, run, frame} = 0;
     end
 
@@ -267,11 +260,10 @@ module axis_sequencer #(
         owed <= owed + {7'd0, tick} - {7'd0, state == IDLE && owed != 0};
         if (tick && busy && in_motion) has_lost_ticks <= 1;
         waited <= state == SETTLE ? waited + 1'b1 : 9'd0;
-        fetched <= fetch ? fetched + 1'b1 : 2'd0;
         if (state == POWER_UP) now <= first_tick;
-        else if (state == ACCELERATE) now <= now + 1'b1;
+        else if (state == ACCELERATE && (done || !in_motion)) now <= now + 1'b1;
         if (state == IDLE) is_after <= 0;
-        else if (state == TRAVEL) is_after <= 1;
+        else if (ticks) is_after <= 1;
         state <= asks ? OUTPUTS : next;
         if (asks) back <= next;
     end
@@ -293,11 +285,11 @@ module axis_sequencer #(
         TEND: next = inputs_busy ? TEND : TENDED;
         TENDED: next = DECIDE;
         DECIDE: next = SETTLE;
-        SETTLE: next = (is_settled && waited != 0) || waited == MOST_WAITED ? ACT : SETTLE;
+        SETTLE: next = done && (is_settled || waited >= MOST_WAITED) ? ACT : SETTLE;
         ACT: next = begins_frame || begins_tail || goes_on ? FETCH : is_after ? PUBLISH : ACCELERATE;
-        FETCH: next = fetched != 3 ? FETCH : is_after ? PUBLISH : ACCELERATE;
-        ACCELERATE: next = TRAVEL;
-        TRAVEL: next = STEP;
+        FETCH: next = !done ? FETCH : is_after ? PUBLISH : ACCELERATE;
+        ACCELERATE: next = done || !in_motion ? TRAVEL : ACCELERATE;
+        TRAVEL: next = done || !travel ? STEP : TRAVEL;
         STEP: next = DUE;
         PUBLISH: next = PUBLISHED;
         PUBLISHED: next = publish_busy ? PUBLISHED : IDLE;
@@ -311,7 +303,7 @@ module axis_sequencer #(
         if (setup_taken || setup_refused) is_refused <= setup_refused;
         if (state == ENABLE || (state == TENDED && is_host_silent)) is_enabled <= may_enable;
         if (!is_enabled) enabled_for <= 0;
-        else if (state == TRAVEL && enabled_for != 32'hffffffff) enabled_for <= enabled_for + 1'b1;
+        else if (ticks && enabled_for != 32'hffffffff) enabled_for <= enabled_for + 1'b1;
     end
 
     // The run, its frames and its pieces.

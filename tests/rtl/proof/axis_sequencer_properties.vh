@@ -25,12 +25,12 @@
         was_armed <= is_allowed;
         may_begin <= was_armed && has_motor;
         must_rest <= stops && (motion != AT_REST) && (in_motion || state == CEASE);
-        travelled <= travel;
+        travelled <= travel && done;
         body_ended <= state == ACT && motion == BODY && idle && body_left == 1;
         has_tail <= tail_left != 0 && !is_last;
         if (begins) is_permitted <= may_begin;
         if (state == IDLE) has_travelled <= 0;
-        else if (travel) has_travelled <= 1;
+        else if (travel && done) has_travelled <= 1;
     end
 
     always @* begin

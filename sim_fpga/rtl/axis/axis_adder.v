@@ -1,11 +1,16 @@
-// What the device shows its host: the words of the map, the capture ring and the event ring. One adder counts and sums
-// all of it, and what it counts is in memory.
+// The device's adder. What it adds and counts is in memory: the motor's velocity and phase, the sums and the counters
+// of the map, and the values of the analog outputs. It also puts what the host reads into memory: the words of the map,
+// the capture ring and the event ring (sim_fpga/capture_ring.hpp, sim_fpga/event_ring.hpp).
 //
-// It does one thing at a time: it notes a step, a trigger, a setup or an event, moves the analog outputs by their
-// slopes, or publishes the words, which are all of one state then. SEQUENCE is odd meanwhile. While `hold` is high, the
-// words stay as they are: a host behind a slow link then reads one consistent state, however long that takes. The rings
-// are sim_fpga/capture_ring.hpp and sim_fpga/event_ring.hpp.
-module axis_record #(
+// It does one thing at a time, in some clocks:
+// - It is the step engine, core/step/tick_engine.hpp: velocity += acceleration and phase += velocity at each tick.
+//   PHASE is position + 1/2 step modulo one step; a step forward is the carry of phase + velocity, a step backward its
+//   borrow.
+// - It notes a step, a trigger, a setup or an event.
+// - It moves the analog outputs by their slopes.
+// - It publishes the words, which are all of one state then. SEQUENCE is odd meanwhile. While `hold` is high, the words
+//   stay as they are: a host behind a slow link then reads one consistent state, however long that takes.
+module axis_adder #(
     parameter CAPTURE_BITS = 8, // 2 to the power of it is the number of entries
     parameter EVENT_BITS = 4,
     parameter SEGMENT_BITS = 8,
@@ -14,6 +19,25 @@ module axis_record #(
 ) (
     input clk,
     output busy,                // something is being noted or moved; what is shown stays as it is
+    // What the sequencer waits for, until `done`.
+    input load,                 // a piece
+    output [1:0] piece_field,   // the word of the piece in the segment ring
+    input [63:0] piece_word,    // a clock later
+    input accelerate,           // first half of a tick
+    input travel,               // second half of a tick
+    input check,                // of the next frame: whether its phase is that of the motor
+    output reg done,
+    output reg is_same_phase,   // a clock after `done` of a check
+    input [63:0] frame_phase,
+    // At once.
+    input rebase,               // at rest: takes the next frame's phase, for one clock
+    input rest,                 // or that of a whole step
+    input halt,                 // drops the rest of the piece
+    // The engine.
+    output idle,                // there is no piece, or it has ended
+    output reg overflow,        // after `accelerate`: the velocity left 64 bits
+    output reg engine_step,     // for the clock after `travel`: the tick makes a step
+    output reg backward,        // its direction
     // A step, for one clock.
     input step,
     input forward,
@@ -48,9 +72,6 @@ module axis_record #(
     output reg is_published,    // since power-up
     input [63:0] now,
     input [16:0] status,
-    input [63:0] count,
-    input [63:0] phase,
-    input [63:0] velocity,
     input [63:0] run,
     input [63:0] frame,
     input [SEGMENT_BITS:0] segment_tail, // low bits
@@ -71,16 +92,21 @@ module axis_record #(
         TRIGGER_COUNT = 8, ENCODER = 9, SEGMENT_TAIL = 10, CAPTURE_HEAD = 11, CAPTURE_LOST = 12, CAPTURE_SUM = 13,
         CAPTURE_SUMS = 14, SETUP = 15, INPUTS = 16, OUTPUTS = 17, OUTPUT_TAIL = 18, EVENT_HEAD = 19, EVENT_LOST = 20,
         ANALOG_LOWER = 22, ANALOG_UPPER = 23, LAST = 23, WHAT = 24, STEP = 25,
-        SEGMENTS_TAKEN = 26, OUTPUTS_TAKEN = 27, HOST = 28, ZERO = 31;
+        SEGMENTS_TAKEN = 26, OUTPUTS_TAKEN = 27, HOST = 28, SIGN = 29,
+        PIECE = 30, ZERO = 31, ACCELERATION = 24, FRAME_PHASE = 32, REST_PHASE = 33;
     localparam [1:0] VALUES = 2, SLOPES = 3; // {one of them, 1'b0, output}
-    localparam [4:0] REST = 0, STEP_HEAD = 1, STEP_LOST = 2, STEP_SUM = 3, STEP_SUMMED = 4, STEP_SUMS = 5, STEP_END = 6,
+    localparam [5:0] REST = 0, STEP_HEAD = 1, STEP_LOST = 2, STEP_SUM = 3, STEP_SUMMED = 4, STEP_SUMS = 5, STEP_END = 6,
         TRIGGERED = 7, NOTE_TICK = 8, NOTE_WHAT = 9, NOTE_VALUE = 10, NOTE_DETAIL = 11, SLIDE = 12,
         SLIDE_SLOPE = 13, SLIDE_VALUE = 14, OPEN = 16, OPENED = 17, TAKE_SEGMENTS = 18, SEGMENTS_TAKE = 19,
         TAKE_OUTPUTS = 20, OUTPUTS_TAKE = 21, BEGIN = 22, SHOW = 23, ASK_SETUP = 24, TAKE_SETUP = 25, SETUP_TAKEN = 26,
-        GIVE_VALUE = 27, GIVE_SLOPE = 28, SLOPE_GIVEN = 29;
+        GIVE_VALUE = 27, GIVE_SLOPE = 28, SLOPE_GIVEN = 29, STEP_COUNT = 30, TRIGGER = 31, LOAD = 32,
+        LOAD_VELOCITY = 33, LOAD_ACCELERATION = 34, ACCELERATE = 35, ACCELERATED = 36, TRAVEL = 37, TRAVELLED = 38,
+        CHECK = 39, REBASED = 40;
     localparam SHOWN_BITS = EVENT_BITS + 2 > 5 ? EVENT_BITS + 2 : 5;
-    reg [4:0] state, next;
-    reg asks_step, asks_trigger, asks_event, asks_slide, asks_setup;
+    reg [5:0] state, next;
+    reg asks_step, asks_trigger, asks_event, asks_slide, asks_setup, asks_rebase;
+    reg to_rest;                // the motor's phase becomes that of a whole step
+    reg [31:0] left;            // ticks of the present piece
     reg goes_forward, was_full; // the step
     reg [1:0] its_kind;         // the event
     reg [4:0] its_channel;
@@ -112,12 +138,13 @@ module axis_record #(
     always @* case (select)
         NOW: word = now;
         STATUS: word = {47'd0, status};
-        COUNT, ENCODER: word = count; // there is no encoder
-        PHASE: word = phase;
-        VELOCITY: word = velocity;
         RUN: word = run;
         FRAME: word = frame;
         HOST: word = host_word;
+        SIGN: word = {64{!goes_forward}};
+        PIECE: word = piece_word;
+        FRAME_PHASE: word = frame_phase;
+        REST_PHASE: word = 64'd1 << 63;
         INPUTS: word = {32'd0, inputs};
         OUTPUTS: word = {48'd0, outputs};
         ANALOG_LOWER: word = analog[63:0];
@@ -145,9 +172,11 @@ module axis_record #(
     wire [EVENT_BITS:0] events_used = events_head - event_tail;
     assign capture_full = steps_used[CAPTURE_BITS];
     wire events_full = events_used[EVENT_BITS];
+    assign piece_field = state == LOAD ? 2'd2 : state == REST ? 2'd1 : 2'd0;
+    assign idle = left == 0;
     assign asks_request = state == ASK_SETUP;
     assign asks_slope = state == GIVE_VALUE;
-    assign busy = asks_step || asks_slide || asks_trigger || asks_event || asks_setup ||
+    assign busy = asks_step || asks_slide || asks_trigger || asks_event || asks_setup || asks_rebase ||
         (state != REST && (state < OPEN || state > SHOW));
 
     always @* begin
@@ -155,25 +184,82 @@ module axis_record #(
         read = ZERO;
         select = ZERO;
         counts_as = asked;
-        {counts, carry, adds, shows} = 0;
+        {counts, carry, adds, shows, done} = 0;
         case (state)
-            REST: if (asks_step) begin
+            REST: if (asks_rebase) begin
+                next = REBASED;
+                select = to_rest ? REST_PHASE : FRAME_PHASE;
+                adds = 1;
+            end else if (asks_step) begin
                 next = STEP_HEAD;
                 read = CAPTURE_HEAD;
             end else if (asks_slide) begin
                 next = SLIDE;
             end else if (asks_trigger) begin
-                next = TRIGGERED;
-                select = COUNT;
-                adds = 1;
+                next = TRIGGER;
+                read = COUNT;
             end else if (asks_event) begin
                 next = NOTE_TICK;
                 read = EVENT_HEAD;
             end else if (asks_setup) begin
                 next = ASK_SETUP;
+            end else if (load) begin
+                next = LOAD;
+            end else if (accelerate) begin
+                next = ACCELERATE;
+                read = ACCELERATION;
+            end else if (travel) begin
+                next = TRAVEL;
+                read = VELOCITY;
+            end else if (check) begin
+                next = CHECK;
+                read = PHASE;
             end else if (publish_busy) begin
                 next = OPEN;
                 read = SEQUENCE;
+            end
+            REBASED: begin
+                counts = 1;
+                counts_as = PHASE;
+            end
+            LOAD: begin
+                next = LOAD_VELOCITY;
+                select = PIECE;
+                adds = 1;
+            end
+            LOAD_VELOCITY: begin
+                next = LOAD_ACCELERATION;
+                counts = 1;
+                counts_as = VELOCITY;
+                select = PIECE;
+                adds = 1;
+            end
+            LOAD_ACCELERATION: begin
+                counts = 1;
+                counts_as = ACCELERATION;
+                done = 1;
+            end
+            ACCELERATE: begin
+                next = ACCELERATED;
+                adds = 1;
+                read = VELOCITY;
+            end
+            ACCELERATED: begin
+                counts = 1;
+                done = 1;
+            end
+            TRAVEL: begin
+                next = TRAVELLED;
+                adds = 1;
+                read = PHASE;
+            end
+            TRAVELLED: begin
+                counts = 1;
+                done = 1;
+            end
+            CHECK: begin
+                select = FRAME_PHASE;
+                done = 1;
             end
             STEP_HEAD: begin
                 next = STEP_LOST;
@@ -182,9 +268,17 @@ module axis_record #(
                 read = CAPTURE_LOST;
             end
             STEP_LOST: begin
-                next = STEP_SUM;
+                next = STEP_COUNT;
                 counts = 1;
                 carry = was_full;
+                select = SIGN;
+                adds = 1;
+                read = COUNT;
+            end
+            STEP_COUNT: begin
+                next = STEP_SUM;
+                counts = 1;
+                carry = goes_forward;
                 select = STEP;
                 adds = 1;
                 read = CAPTURE_SUM;
@@ -203,6 +297,10 @@ module axis_record #(
                 read = CAPTURE_SUMS;
             end
             STEP_END: counts = 1;
+            TRIGGER: begin
+                next = TRIGGERED;
+                adds = 1;
+            end
             TRIGGERED: begin
                 counts = 1;
                 counts_as = TRIGGER_COUNT;
@@ -221,7 +319,7 @@ module axis_record #(
                 carry = is_lost;
                 select = WHAT;
                 shows = !is_lost;
-                read = its_kind == 2 && keeps_value ? {VALUES, 1'b0, its_channel[2:0]} : ZERO;
+                read = its_kind != 2 ? COUNT : keeps_value ? {VALUES, 1'b0, its_channel[2:0]} : ZERO;
             end
             GIVE_VALUE: begin
                 next = GIVE_SLOPE;
@@ -243,14 +341,10 @@ module axis_record #(
             end
             NOTE_VALUE: begin
                 next = NOTE_DETAIL;
-                select = its_kind == 2 ? ZERO : COUNT;
                 shows = !is_lost;
-                read = its_kind == 2 ? {SLOPES, 1'b0, its_channel[2:0]} : ZERO;
+                read = its_kind == 2 ? {SLOPES, 1'b0, its_channel[2:0]} : its_kind == 0 ? PHASE : ZERO;
             end
-            NOTE_DETAIL: begin
-                select = its_kind == 0 ? PHASE : ZERO;
-                shows = !is_lost;
-            end
+            NOTE_DETAIL: shows = !is_lost;
             SLIDE: if (slides_left != 0) begin
                 next = slides_left[0] ? SLIDE_SLOPE : SLIDE;
                 read = {SLOPES, 1'b0, output_at};
@@ -312,7 +406,12 @@ module axis_record #(
                 next = is_closing ? REST : number == LAST ? OPEN : SHOW;
                 select = number;
                 shows = 1;
-                read = number == LAST ? SEQUENCE : number + 1'b1;
+                case (number + 1'b1)
+                    LAST + 1'b1: read = SEQUENCE;
+                    VELOCITY: read = idle ? ZERO : VELOCITY;
+                    ENCODER: read = COUNT; // there is no encoder
+                    default: read = number + 1'b1;
+                endcase
             end
             default: ;
         endcase
@@ -335,7 +434,9 @@ module axis_record #(
         {is_lost, number, is_closing, asked, counted_word, addend, steps_head, events_head, entry} = 0;
         {publish_busy, is_published, asks_slide, output_at, slides_left, asks_setup, has_slope} = 0;
         is_zero = 8'hff;
+        {is_same_phase, overflow, engine_step, backward, asks_rebase, to_rest, left} = 0;
         for (i = 0; i < 64; i = i + 1) counted[i] = 0;
+        counted[PHASE] = 64'd1 << 63;
         for (i = 0; i < 32; i = i + 1) shown[i] = 0;
     end
     always @(posedge clk) begin
@@ -352,10 +453,10 @@ module axis_record #(
     end
     always @(posedge clk) begin
         state <= next;
-        asks_step <= step || (asks_step && state != REST);
-        asks_slide <= tick ? has_slope[ANALOG-1:0] != 0 : asks_slide && (state != REST || asks_step);
-        asks_trigger <= triggered || (asks_trigger && (state != REST || asks_step || asks_slide));
-        asks_event <= put || (asks_event && (state != REST || asks_step || asks_slide || asks_trigger));
+        asks_step <= step || (asks_step && (state != REST || asks_rebase));
+        asks_slide <= tick ? has_slope[ANALOG-1:0] != 0 : asks_slide && (state != REST || asks_rebase || asks_step);
+        asks_trigger <= triggered || (asks_trigger && (state != REST || asks_rebase || asks_step || asks_slide));
+        asks_event <= put || (asks_event && (state != REST || asks_rebase || asks_step || asks_slide || asks_trigger));
         asks_setup <= setup_taken || (asks_setup && state != TAKE_SETUP);
         if (step) begin
             goes_forward <= forward;
@@ -379,6 +480,15 @@ module axis_record #(
         end
         if (state == GIVE_SLOPE) is_zero[its_channel[2:0]] <= is_nothing || is_below;
         if (state == SLOPE_GIVEN) has_slope[its_channel[2:0]] <= !is_nothing;
+        asks_rebase <= rebase || (asks_rebase && state != REST);
+        if (rebase) to_rest <= rest;
+        if (halt) left <= 0;
+        else if (state == LOAD_ACCELERATION) left <= piece_word[39:8];
+        else if (state == TRAVELLED) left <= left - 1'b1;
+        if (state == ACCELERATED) overflow <= addend[63] == counted_word[63] && sum[63] != addend[63];
+        if (state == TRAVELLED) backward <= addend[63];
+        engine_step <= state == TRAVELLED && sum[64] != addend[63];
+        if (state == CHECK) is_same_phase <= word == counted_word;
         if (publish && !hold) publish_busy <= 1;
         if (state == SHOW) begin
             number <= number == LAST || is_closing ? 6'd0 : number + 1'b1;
