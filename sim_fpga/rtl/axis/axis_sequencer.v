@@ -2,9 +2,9 @@
 // sim_fpga/device.hpp, where the rules are.
 //
 // The work of a tick: the host's orders, then the inputs and the decisions of the present tick, then the tick itself,
-// then the inputs and the decisions after it, then the registers for the host. `busy` lasts as long as this work. It
-// takes no more clocks than SETTLE_CLOCKS and 60, except when a setup is taken, which is at rest. A tick that comes
-// meanwhile waits. In motion its step would come to the pin too late, so the run ends, with LOST_TICKS.
+// then the inputs and the decisions after it, then the registers for the host. `busy` lasts as long as this work. A
+// tick that comes meanwhile waits. If it comes in motion and before the present tick's step, that step would come to
+// the pin too late, so the run ends, with LOST_TICKS.
 module axis_sequencer #(
     parameter INPUTS = 8,
     parameter ENTRY_BITS = 8,   // of the segment ring
@@ -212,6 +212,7 @@ module axis_sequencer #(
     end
 
     assign busy = state != IDLE || owed != 0;
+    wire is_before_step = state != IDLE && (!is_after || state == STEP);
     assign start_setup = state == SETUP && setup_is_new && !in_motion;
     assign look = state == LOOK;
     assign look_at_host = state == ENABLE;
@@ -258,7 +259,7 @@ module axis_sequencer #(
     // The order of work.
     always @(posedge clk) begin
         owed <= owed + {7'd0, tick} - {7'd0, state == IDLE && owed != 0};
-        if (tick && busy && in_motion) has_lost_ticks <= 1;
+        if (tick && in_motion && (owed != 0 || is_before_step)) has_lost_ticks <= 1;
         waited <= state == SETTLE ? waited + 1'b1 : 9'd0;
         if (state == POWER_UP) now <= first_tick;
         else if (state == ACCELERATE && (done || !in_motion)) now <= now + 1'b1;
@@ -284,7 +285,7 @@ module axis_sequencer #(
         LOOK: next = TEND;
         TEND: next = inputs_busy ? TEND : TENDED;
         TENDED: next = DECIDE;
-        DECIDE: next = SETTLE;
+        DECIDE: next = !in_motion || idle ? SETTLE : is_after ? PUBLISH : ACCELERATE;
         SETTLE: next = done && (is_settled || waited >= MOST_WAITED) ? ACT : SETTLE;
         ACT: next = begins_frame || begins_tail || goes_on ? FETCH : is_after ? PUBLISH : ACCELERATE;
         FETCH: next = !done ? FETCH : is_after ? PUBLISH : ACCELERATE;

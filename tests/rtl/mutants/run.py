@@ -76,7 +76,7 @@ LONG_MUTANTS = [
     ("axis_device", "axis/axis_sequencer.v", "(is_stopped ? BY_INPUT : 16'd0);", "16'd0;"),
     ("axis_device", "axis/axis_sequencer.v", "start_setup = state == SETUP && setup_is_new && !in_motion",
      "start_setup = state == SETUP && setup_is_new"),
-    ("axis_device", "axis/axis_sequencer.v", "tick && busy && in_motion", "tick && busy"),
+    ("axis_device", "axis/axis_sequencer.v", "tick && in_motion && (", "tick && ("),
     ("axis_device", "axis/axis_sequencer.v", "is_stop_asked || has_lost_ticks", "is_stop_asked"),
     ("axis_device", "axis/axis_frame_scanner.v", "is_whole = pieces <", "is_whole = 1 || pieces <"),
     ("axis_device", "axis/axis_frame_scanner.v", "is_well <= is_piece;", "is_well <= 1;"),
