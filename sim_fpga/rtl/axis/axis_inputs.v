@@ -22,7 +22,8 @@ module axis_inputs #(
     output changed_closed,
     input wait_for_event
 );
-    reg [31:0] debounce[0:31], since[0:31]; // `since`: of the pending ones, when the pin changed
+    (* no_rw_check *) reg [31:0] debounce[0:31];
+    (* no_rw_check *) reg [31:0] since[0:31]; // of the pending ones, when the pin changed
     reg [31:0] debounce_word, since_word;
     reg [INPUTS-1:0] pending;   // the pin has another level than the input
     reg [INPUTS-1:0] different; // the same at this look

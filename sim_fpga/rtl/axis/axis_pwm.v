@@ -10,22 +10,21 @@ module axis_pwm #(
 );
     reg [BITS-1:0] at;          // the clock of the period
     reg [BITS-1:0] on, next_on; // for so many clocks
-    reg [BITS+15:0] product, addend;
-    reg [15:0] factor;
+    reg [BITS:0] product;       // of the bits of the level so far
+    reg [16:0] factor;          // the other bits, behind a 1
+    wire [BITS:0] sum = product + (factor[0] ? {1'b0, period} : {(BITS + 1){1'b0}});
     wire ends = at + 1'b1 >= period;
-    initial {at, on, next_on, product, addend, factor, pin} = 0;
+    initial {at, on, next_on, product, factor, pin} = 0;
     always @(posedge clk) begin
         at <= ends ? {BITS{1'b0}} : at + 1'b1;
         if (ends) begin
             on <= next_on;
             product <= 0;
-            addend <= {16'd0, period};
-            factor <= level;
-        end else begin
-            if (factor[0]) product <= product + addend;
-            addend <= addend << 1;
+            factor <= {1'b1, level};
+        end else if (factor[16:1] != 0) begin
+            product <= sum >> 1;
             factor <= factor >> 1;
-            if (factor == 0) next_on <= product[BITS+14:15];
+            if (factor[16:1] == 1) next_on <= sum[BITS-1:0]; // the bit 2^15
         end
         pin <= period != 0 && at < on;
     end

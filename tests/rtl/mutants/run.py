@@ -88,7 +88,7 @@ LONG_MUTANTS = [
     ("axis_pins", "axis/axis_pins.v", "is_free && setup_left == 0", "is_free"),
     ("axis_pins", "axis/axis_pins.v", "is_pause <= is_on;", "is_pause <= 0;"),
     ("axis_pwm", "axis/axis_pwm.v", "at + 1'b1 >= period", "at >= period"),
-    ("axis_pwm", "axis/axis_pwm.v", "product[BITS+14:15]", "product[BITS+13:14]"),
+    ("axis_pwm", "axis/axis_pwm.v", "factor[16:1] == 1) next_on", "factor[16:1] == 2) next_on"),
     ("axis_chip", "axis/axis_chip.v", ".tick(tick), .step(step), .forward(forward)",
      ".tick(tick), .step(step), .forward(!forward)"),
     ("axis_device", "axis/axis_inputs.v", "busy = scans || wait_for_event", "busy = scans"),
