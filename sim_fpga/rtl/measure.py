@@ -22,8 +22,8 @@ HEAD = """\
 """
 DEVICE_BEGIN = "<!-- device -->\n"
 DEVICE_HEAD = """\
-| design | LUT4 | flip-flops | block RAM | HX8K, MHz |
-|---|---|---|---|---|
+| design | LUT4 | flip-flops | block RAM | UP5K, MHz | HX8K, MHz |
+|---|---|---|---|---|---|
 """
 PARTS = {
     "UP5K": ["--up5k", "--package", "sg48", "--freq", "48"],
@@ -67,8 +67,8 @@ def designs():
 
 
 def devices():
-    yield Design("the device of a motor, 64 pieces in the ring", "axis", "axis_device", 0, (1,), True, SEGMENT_BITS=6)
-    yield Design("its pins", "axis", "axis_pins", 0, (1,), True)
+    yield Design("all of a motor's hardware, 64 pieces in the ring", "axis", "axis_chip", 0, (1,), True)
+    yield Design("of it the pins of the motor", "axis", "axis_pins", 0, (1,), True)
 
 
 def yosys(script, work):
@@ -114,13 +114,18 @@ def with_few_pins(design, module, copies):
     return "\n".join(lines) + "\nendmodule\n"
 
 
-def megahertz(design, module, copies, work, parts=PARTS):
-    """The highest clock in each of the parts."""
+def netlist_with_few_pins(design, module, copies, work):
     wrapper, netlist = work / "few_pins.v", work / "placed.json"
     wrapper.write_text(with_few_pins(design, module, copies))
     subprocess.run(["yosys", "-q", "-p", f"read_verilog -I{HERE.parent} {design.sources()} {wrapper}; {design.chosen()} "
                     f"synth_ice40 -top few_pins -json {netlist}"], check=True)
-    return [placed(netlist, options) for options in parts.values()]
+    return netlist
+
+
+def megahertz(design, module, copies, work):
+    """The highest clock in each of the parts."""
+    netlist = netlist_with_few_pins(design, module, copies, work)
+    return [placed(netlist, options) for options in PARTS.values()]
 
 
 class DoesNotFit(Exception):
@@ -166,11 +171,16 @@ def device_row(design):
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
         module = synthesized(design, work)
-        try:
-            clocks = [f"{int(clock)}" for clock in megahertz(design, module, 1, work, {"HX8K": PARTS["HX8K"]})]
-        except DoesNotFit:
-            clocks = ["does not fit"]
-        return [design.name] + [f"{count(module, kind):,}" for kind in (LUT, FLIP_FLOP, RAM)] + clocks
+        netlist = netlist_with_few_pins(design, module, 1, work)
+        return ([design.name] + [f"{count(module, kind):,}" for kind in (LUT, FLIP_FLOP, RAM)]
+                + [clock_in(netlist, options) for options in PARTS.values()])
+
+
+def clock_in(netlist, options):
+    try:
+        return f"{int(placed(netlist, options))}"
+    except DoesNotFit:
+        return "does not fit"
 
 
 def write_table(readme, begin, table):

@@ -20,17 +20,24 @@ module axis_adder #(
     input clk,
     output busy,                // something is being noted or moved; what is shown stays as it is
     // What the sequencer waits for, until `done`.
+    input power_up,             // TICK becomes first_tick
+    input [63:0] first_tick,
     input load,                 // a piece
-    output [1:0] piece_field,   // the word of the piece in the segment ring
-    input [63:0] piece_word,    // a clock later
-    input accelerate,           // first half of a tick
+    output reg [1:0] entry_field, // the word of the piece, or of the next frame's header, in the segment ring
+    input [63:0] entry_word,    // a clock later
+    input advance,              // TICK
+    input accelerate,           // and the motor: first half of a tick
     input travel,               // second half of a tick
-    input check,                // of the next frame: whether its phase is that of the motor
+    input check,                // the next frame
     output reg done,
-    output reg is_same_phase,   // a clock after `done` of a check
-    input [63:0] frame_phase,
+    // A check shows of the next frame, from the clock after `done` on:
+    output reg is_past,         // it starts now or before
+    output reg is_now,
+    output reg is_place,        // it starts at COUNT
+    output reg is_same_phase,   // it starts at PHASE
+    output reg is_rest_phase,   // it starts at a whole step
     // At once.
-    input rebase,               // at rest: takes the next frame's phase, for one clock
+    input rebase,               // at rest: takes the checked frame's phase, for one clock
     input rest,                 // or that of a whole step
     input halt,                 // drops the rest of the piece
     // The engine.
@@ -70,7 +77,6 @@ module axis_adder #(
     input hold,
     output reg publish_busy,
     output reg is_published,    // since power-up
-    input [63:0] now,
     input [16:0] status,
     input [63:0] run,
     input [63:0] frame,
@@ -86,22 +92,24 @@ module axis_adder #(
     input [CAPTURE_BITS-1:0] read_entry,
     output reg [63:0] read_step
 );
-    // The words by their numbers: those of the map from 0x0100 on, the others that are put into the rings, and what the
-    // analog outputs have.
-    localparam [5:0] SEQUENCE = 0, NOW = 1, STATUS = 2, COUNT = 3, PHASE = 4, VELOCITY = 5, RUN = 6, FRAME = 7,
-        TRIGGER_COUNT = 8, ENCODER = 9, SEGMENT_TAIL = 10, CAPTURE_HEAD = 11, CAPTURE_LOST = 12, CAPTURE_SUM = 13,
-        CAPTURE_SUMS = 14, SETUP = 15, INPUTS = 16, OUTPUTS = 17, OUTPUT_TAIL = 18, EVENT_HEAD = 19, EVENT_LOST = 20,
-        ANALOG_LOWER = 22, ANALOG_UPPER = 23, LAST = 23, WHAT = 24, STEP = 25,
-        SEGMENTS_TAKEN = 26, OUTPUTS_TAKEN = 27, HOST = 28, SIGN = 29,
-        PIECE = 30, ZERO = 31, ACCELERATION = 24, FRAME_PHASE = 32, REST_PHASE = 33;
-    localparam [1:0] VALUES = 2, SLOPES = 3; // {one of them, 1'b0, output}
-    localparam [5:0] REST = 0, STEP_HEAD = 1, STEP_LOST = 2, STEP_SUM = 3, STEP_SUMMED = 4, STEP_SUMS = 5, STEP_END = 6,
-        TRIGGERED = 7, NOTE_TICK = 8, NOTE_WHAT = 9, NOTE_VALUE = 10, NOTE_DETAIL = 11, SLIDE = 12,
-        SLIDE_SLOPE = 13, SLIDE_VALUE = 14, OPEN = 16, OPENED = 17, TAKE_SEGMENTS = 18, SEGMENTS_TAKE = 19,
-        TAKE_OUTPUTS = 20, OUTPUTS_TAKE = 21, BEGIN = 22, SHOW = 23, ASK_SETUP = 24, TAKE_SETUP = 25, SETUP_TAKEN = 26,
-        GIVE_VALUE = 27, GIVE_SLOPE = 28, SLOPE_GIVEN = 29, STEP_COUNT = 30, TRIGGER = 31, LOAD = 32,
-        LOAD_VELOCITY = 33, LOAD_ACCELERATION = 34, ACCELERATE = 35, ACCELERATED = 36, TRAVEL = 37, TRAVELLED = 38,
-        CHECK = 39, REBASED = 40;
+    // The words that are counted: those of the map by their numbers, from 0x0100 on, and others.
+    localparam [5:0] SEQUENCE = 0, NOW = 1, COUNT = 3, PHASE = 4, VELOCITY = 5, TRIGGER_COUNT = 8, ENCODER = 9,
+        SEGMENT_TAIL = 10, CAPTURE_HEAD = 11, CAPTURE_LOST = 12, CAPTURE_SUM = 13, CAPTURE_SUMS = 14, SETUP = 15,
+        OUTPUT_TAIL = 18, EVENT_HEAD = 19, EVENT_LOST = 20, LAST = 23, ACCELERATION = 24, FRAME_PHASE = 25,
+        REST_PHASE = 26, ZERO = 31;
+    localparam [1:0] VALUES = 2, SLOPES = 3; // of the analog outputs: {one of them, 1'b0, output}
+    // The other words that are published, put into a ring, or added.
+    localparam [5:0] STATUS = 2, RUN = 6, FRAME = 7, INPUTS = 16, OUTPUTS = 17, ANALOG_LOWER = 22, ANALOG_UPPER = 23,
+        WHAT = 32, STEP = 33, SEGMENTS_TAKEN = 34, OUTPUTS_TAKEN = 35, HOST = 36, SIGN = 37, ENTRY = 38,
+        FIRST_TICK = 39;
+    localparam [5:0] REST = 0, STEP_HEAD = 1, STEP_LOST = 2, STEP_COUNT = 3, STEP_TICK = 4, STEP_SUM = 5, STEP_SUMMED
+        = 6, STEP_SUMS = 7, NOTE_TICK = 8, NOTE_WHAT = 9, NOTE_VALUE = 10, NOTE_DETAIL = 11, STEP_END = 12, NOTE_HEAD
+        = 13, GIVE_VALUE = 14, GIVE_SLOPE = 15, OPEN = 16, OPENED = 17, TAKE_SEGMENTS = 18, SEGMENTS_TAKE = 19,
+        TAKE_OUTPUTS = 20, OUTPUTS_TAKE = 21, BEGIN = 22, SHOW = 23, SLOPE_GIVEN = 24, SLIDE = 25, SLIDE_SLOPE = 26,
+        SLIDE_VALUE = 27, ASK_SETUP = 28, TAKE_SETUP = 29, SETUP_TAKEN = 30, TRIGGER = 31, TRIGGERED = 32, LOAD = 33,
+        LOAD_VELOCITY = 34, LOAD_ACCELERATION = 35, ADVANCE = 36, ACCELERATE = 37, ACCELERATED = 38, TRAVEL = 39,
+        TRAVELLED = 40, CHECK_START = 41, CHECK_PAST = 42, CHECK_COUNT = 43, CHECK_PHASE = 44, CHECKED = 45, REBASE =
+        46, REBASED = 47, POWER_UP = 48;
     localparam SHOWN_BITS = EVENT_BITS + 2 > 5 ? EVENT_BITS + 2 : 5;
     reg [5:0] state, next;
     reg asks_step, asks_trigger, asks_event, asks_slide, asks_setup, asks_rebase;
@@ -122,7 +130,7 @@ module axis_adder #(
     reg [5:0] asked, read;      // the counted word, and that of the next clock
     reg [5:0] counts_as;
     reg [63:0] counted_word, addend;
-    reg counts, carry, adds;    // `adds`: `word` is the next clock's addend
+    reg counts, carry, adds, inverts; // `adds`: `word` is the next clock's addend; `inverts`: it is inverted
     wire [64:0] sum = {1'b0, counted_word} + {1'b0, addend} + {64'd0, carry};
     wire is_nothing = addend == 0;
     wire is_analog = state == SLIDE_VALUE || state == GIVE_SLOPE;
@@ -130,21 +138,19 @@ module axis_adder #(
     wire is_full = is_analog && !addend[63] && sum[63:62] != 0;
     wire [63:0] kept = is_below || is_full ? {1'b0, is_full, 62'd0} : sum[63:0];
 
-    // The word that is published, put into a ring, or added.
     wire [SEGMENT_BITS:0] segments_taken = segment_tail - counted_word[SEGMENT_BITS:0];
     wire [OUTPUT_BITS:0] outputs_taken = output_tail - counted_word[OUTPUT_BITS:0];
     reg [5:0] select;
-    reg [63:0] word;
+    reg [63:0] word;            // that is published, put into a ring, or added
+    wire is_equal = word == counted_word;
     always @* case (select)
-        NOW: word = now;
         STATUS: word = {47'd0, status};
         RUN: word = run;
         FRAME: word = frame;
         HOST: word = host_word;
         SIGN: word = {64{!goes_forward}};
-        PIECE: word = piece_word;
-        FRAME_PHASE: word = frame_phase;
-        REST_PHASE: word = 64'd1 << 63;
+        ENTRY: word = entry_word;
+        FIRST_TICK: word = first_tick;
         INPUTS: word = {32'd0, inputs};
         OUTPUTS: word = {48'd0, outputs};
         ANALOG_LOWER: word = analog[63:0];
@@ -152,7 +158,7 @@ module axis_adder #(
         WHAT: word = {32'd0, its_levels, 3'd0, its_channel, 6'd0, its_kind};
         SEGMENTS_TAKEN: word = {{(63 - SEGMENT_BITS){1'b0}}, segments_taken};
         OUTPUTS_TAKEN: word = {{(63 - OUTPUT_BITS){1'b0}}, outputs_taken};
-        STEP: word = {now[62:0], goes_forward};
+        STEP: word = {counted_word[62:0], goes_forward};
         default: word = counted_word;
     endcase
 
@@ -172,24 +178,23 @@ module axis_adder #(
     wire [EVENT_BITS:0] events_used = events_head - event_tail;
     assign capture_full = steps_used[CAPTURE_BITS];
     wire events_full = events_used[EVENT_BITS];
-    assign piece_field = state == LOAD ? 2'd2 : state == REST ? 2'd1 : 2'd0;
     assign idle = left == 0;
     assign asks_request = state == ASK_SETUP;
     assign asks_slope = state == GIVE_VALUE;
     assign busy = asks_step || asks_slide || asks_trigger || asks_event || asks_setup || asks_rebase ||
-        (state != REST && (state < OPEN || state > SHOW));
+        (state != REST && (state < OPEN || state > SHOW) && state < LOAD) || state == REBASE || state == REBASED;
 
     always @* begin
         next = REST;
         read = ZERO;
         select = ZERO;
         counts_as = asked;
-        {counts, carry, adds, shows, done} = 0;
+        {counts, carry, adds, inverts, shows, done} = 0;
+        entry_field = 1;
         case (state)
             REST: if (asks_rebase) begin
-                next = REBASED;
-                select = to_rest ? REST_PHASE : FRAME_PHASE;
-                adds = 1;
+                next = REBASE;
+                read = to_rest ? REST_PHASE : FRAME_PHASE;
             end else if (asks_step) begin
                 next = STEP_HEAD;
                 read = CAPTURE_HEAD;
@@ -199,45 +204,67 @@ module axis_adder #(
                 next = TRIGGER;
                 read = COUNT;
             end else if (asks_event) begin
-                next = NOTE_TICK;
+                next = NOTE_HEAD;
                 read = EVENT_HEAD;
             end else if (asks_setup) begin
                 next = ASK_SETUP;
             end else if (load) begin
                 next = LOAD;
-            end else if (accelerate) begin
-                next = ACCELERATE;
-                read = ACCELERATION;
+            end else if (advance) begin
+                next = ADVANCE;
+                read = NOW;
             end else if (travel) begin
                 next = TRAVEL;
                 read = VELOCITY;
             end else if (check) begin
-                next = CHECK;
-                read = PHASE;
+                next = CHECK_START;
+                read = NOW;
+            end else if (power_up) begin
+                next = POWER_UP;
+                select = FIRST_TICK;
+                adds = 1;
             end else if (publish_busy) begin
                 next = OPEN;
                 read = SEQUENCE;
+            end
+            POWER_UP: begin
+                counts = 1;
+                counts_as = NOW;
+                done = 1;
+            end
+            REBASE: begin
+                next = REBASED;
+                adds = 1;
             end
             REBASED: begin
                 counts = 1;
                 counts_as = PHASE;
             end
             LOAD: begin
+                entry_field = 2;
                 next = LOAD_VELOCITY;
-                select = PIECE;
+                select = ENTRY;
                 adds = 1;
             end
             LOAD_VELOCITY: begin
+                entry_field = 0;
                 next = LOAD_ACCELERATION;
                 counts = 1;
                 counts_as = VELOCITY;
-                select = PIECE;
+                select = ENTRY;
                 adds = 1;
             end
             LOAD_ACCELERATION: begin
                 counts = 1;
                 counts_as = ACCELERATION;
                 done = 1;
+            end
+            ADVANCE: begin
+                next = accelerate ? ACCELERATE : REST;
+                counts = 1;
+                carry = 1;
+                read = ACCELERATION;
+                done = !accelerate;
             end
             ACCELERATE: begin
                 next = ACCELERATED;
@@ -257,8 +284,34 @@ module axis_adder #(
                 counts = 1;
                 done = 1;
             end
-            CHECK: begin
-                select = FRAME_PHASE;
+            CHECK_START: begin
+                next = CHECK_PAST;
+                select = ENTRY;
+                adds = 1;
+                inverts = 1;
+                read = NOW;
+                entry_field = 2;
+            end
+            CHECK_PAST: begin
+                next = CHECK_COUNT;
+                carry = 1;
+                read = COUNT;
+                entry_field = 2;
+            end
+            CHECK_COUNT: begin
+                next = CHECK_PHASE;
+                select = ENTRY;
+                read = PHASE;
+                entry_field = 3;
+            end
+            CHECK_PHASE: begin
+                next = CHECKED;
+                select = ENTRY;
+                adds = 1;
+            end
+            CHECKED: begin
+                counts = 1;
+                counts_as = FRAME_PHASE;
                 done = 1;
             end
             STEP_HEAD: begin
@@ -276,9 +329,13 @@ module axis_adder #(
                 read = COUNT;
             end
             STEP_COUNT: begin
-                next = STEP_SUM;
+                next = STEP_TICK;
                 counts = 1;
                 carry = goes_forward;
+                read = NOW;
+            end
+            STEP_TICK: begin
+                next = STEP_SUM;
                 select = STEP;
                 adds = 1;
                 read = CAPTURE_SUM;
@@ -305,11 +362,14 @@ module axis_adder #(
                 counts = 1;
                 counts_as = TRIGGER_COUNT;
             end
-            NOTE_TICK: begin
-                next = NOTE_WHAT;
+            NOTE_HEAD: begin
+                next = NOTE_TICK;
                 counts = 1;
                 carry = !is_lost;
-                select = NOW;
+                read = NOW;
+            end
+            NOTE_TICK: begin
+                next = NOTE_WHAT;
                 shows = !is_lost;
                 read = EVENT_LOST;
             end
@@ -434,21 +494,23 @@ module axis_adder #(
         {is_lost, number, is_closing, asked, counted_word, addend, steps_head, events_head, entry} = 0;
         {publish_busy, is_published, asks_slide, output_at, slides_left, asks_setup, has_slope} = 0;
         is_zero = 8'hff;
-        {is_same_phase, overflow, engine_step, backward, asks_rebase, to_rest, left} = 0;
+        {is_past, is_now, is_place, is_same_phase, is_rest_phase} = 0;
+        {overflow, engine_step, backward, asks_rebase, to_rest, left} = 0;
         for (i = 0; i < 64; i = i + 1) counted[i] = 0;
         counted[PHASE] = 64'd1 << 63;
+        counted[REST_PHASE] = 64'd1 << 63;
         for (i = 0; i < 32; i = i + 1) shown[i] = 0;
     end
     always @(posedge clk) begin
         if (counts) counted[counts_as] <= kept;
         counted_word <= counted[read];
         asked <= read;
-        addend <= adds ? word : 64'd0;
+        addend <= adds ? word ^ {64{inverts}} : 64'd0;
     end
     always @(posedge clk) begin
         if (shows) shown[{is_note, is_note ? note : map_word}] <= word;
         read_word <= shown[{reads_event, reads_event ? read_note : read_map_word}];
-        if (step && !capture_full) steps[steps_head[CAPTURE_BITS-1:0]] <= {now[62:0], forward};
+        if (state == STEP_TICK && !was_full) steps[steps_head[CAPTURE_BITS-1:0]] <= word;
         read_step <= steps[read_entry];
     end
     always @(posedge clk) begin
@@ -461,8 +523,8 @@ module axis_adder #(
         if (step) begin
             goes_forward <= forward;
             was_full <= capture_full;
-            if (!capture_full) steps_head <= steps_head + 1'b1;
         end
+        if (state == STEP_TICK && !was_full) steps_head <= steps_head + 1'b1;
         if (put) begin
             its_kind <= kind;
             its_channel <= channel;
@@ -483,12 +545,18 @@ module axis_adder #(
         asks_rebase <= rebase || (asks_rebase && state != REST);
         if (rebase) to_rest <= rest;
         if (halt) left <= 0;
-        else if (state == LOAD_ACCELERATION) left <= piece_word[39:8];
+        else if (state == LOAD_ACCELERATION) left <= entry_word[39:8];
         else if (state == TRAVELLED) left <= left - 1'b1;
         if (state == ACCELERATED) overflow <= addend[63] == counted_word[63] && sum[63] != addend[63];
         if (state == TRAVELLED) backward <= addend[63];
         engine_step <= state == TRAVELLED && sum[64] != addend[63];
-        if (state == CHECK) is_same_phase <= word == counted_word;
+        if (state == CHECK_START) is_now <= is_equal;
+        if (state == CHECK_PAST) is_past <= addend[63] == counted_word[63] ? !addend[63] : sum[64]; // signed
+        if (state == CHECK_COUNT) is_place <= word[31:0] == counted_word[31:0];
+        if (state == CHECK_PHASE) begin
+            is_same_phase <= is_equal;
+            is_rest_phase <= word[63] ? word[62:0] == 0 : word[62:0] == ~63'd0;
+        end
         if (publish && !hold) publish_busy <= 1;
         if (state == SHOW) begin
             number <= number == LAST || is_closing ? 6'd0 : number + 1'b1;

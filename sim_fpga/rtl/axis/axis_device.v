@@ -90,9 +90,9 @@ module axis_device #(
     wire [32:0] trigger;
     wire enable, start_setup, setup_busy, beats, look_at_host, asks_direct, direct_outputs, asks_setup;
     axis_host_words #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS), .SEGMENT_BITS(SEGMENT_BITS),
-        .OUTPUT_BITS(OUTPUT_BITS), .CONSTANTS(CONSTANTS)) host_words (.clk(clk), .write(write), .write_address(write_address),
-        .write_data(write_data), .read_address({read_address[13:12] == 0, read_address[13], read_address[8:3]}),
-        .read_word(host_word),
+        .OUTPUT_BITS(OUTPUT_BITS), .CONSTANTS(CONSTANTS)) host_words (.clk(clk), .write(write),
+        .write_address(write_address), .write_data(write_data),
+        .read_address({read_address[13:12] == 0, read_address[13], read_address[8:3]}), .read_word(host_word),
         .run_request(run_request), .trigger(trigger), .armed(armed), .veto(veto), .stop(stop), .enable(enable),
         .segment_head(segment_head), .capture_tail(capture_tail), .event_tail(event_tail), .output_head(output_head),
         .beats(beats), .take_beat(look_at_host), .asks_direct(asks_direct), .take_direct(direct_outputs),
@@ -114,7 +114,8 @@ module axis_device #(
     wire [INPUTS-1:0] inputs_inverted, next_inputs_inverted, limit_min, limit_max, home, stop_inputs;
     wire [4:0] debounce_input;
     axis_setup #(.INPUTS(INPUTS), .DIGITAL(DIGITAL), .ANALOG(ANALOG), .TIME_BITS(TIME_BITS)) setup_words (.clk(clk),
-        .start(start_setup), .busy(setup_busy), .taken(setup_taken), .refused(setup_refused), .reads(reads_setup), .address(setup_address),
+        .start(start_setup), .busy(setup_busy), .taken(setup_taken), .refused(setup_refused),
+        .reads(reads_setup), .address(setup_address),
         .word(device_word), .step_width(step_width), .direction_setup(direction_setup),
         .direction_hold(direction_hold), .enable_ticks(enable_ticks),
         .inverted(inverted), .inputs_inverted(inputs_inverted), .invert_inputs(invert_inputs),
@@ -124,15 +125,16 @@ module axis_device #(
         .at_cut(at_cut), .at_silence(at_silence),
         .disables_at_silence(disables_at_silence), .silence_ticks(silence_ticks));
 
-    wire [63:0] now, run, frame;
+    wire [63:0] run, frame;
     wire [SEGMENT_BITS:0] segment_tail;
-    wire ticks, look, inputs_busy, judge_host, falls_silent, is_host_silent, accelerate, travel, check, engine_done;
+    wire ticks, look, inputs_busy, judge_host, falls_silent, is_host_silent;
+    wire powers_up, advance, accelerate, travel, check, adder_done;
     wire [INPUTS-1:0] closed;
     wire input_changes, changed_closed, events_busy;
     wire [4:0] changed_input;
     axis_inputs #(.INPUTS(INPUTS)) inputs (.clk(clk), .pins(pins), .inverted(inputs_inverted), .invert(invert_inputs),
         .next_inverted(next_inputs_inverted), .set_debounce(set_debounce), .debounce_input(debounce_input),
-        .debounce_ticks(debounce_ticks), .now(now[31:0]), .look(look), .busy(inputs_busy), .closed(closed),
+        .debounce_ticks(debounce_ticks), .tick(ticks), .look(look), .busy(inputs_busy), .closed(closed),
         .changes(input_changes), .changed_input(changed_input), .changed_closed(changed_closed),
         .wait_for_event(events_busy));
     // Inputs and outputs never change in the same clock, because one is looked at after the other.
@@ -145,21 +147,22 @@ module axis_device #(
 
     wire load, drop_own, drop_others, take, frame_settled, frame_valid, frame_good, frame_is_last, frame_is_of_run;
     wire [SEGMENT_BITS-1:0] piece;
-    wire [1:0] piece_field;
+    wire [1:0] entry_field;
     wire [SEGMENT_BITS+1:0] scan_address;
     wire [SEGMENT_BITS:0] frame_at;
-    wire [63:0] piece_word, frame_start, frame_phase;
-    wire [31:0] frame_number, frame_count;
+    wire [63:0] entry_word;
+    wire [31:0] frame_number;
     wire [15:0] frame_body_pieces, frame_tail_pieces;
     wire is_segment_write = write && write_address[19:17] == LOCKSTEP_SEGMENT_RING[19:17];
     axis_ring_memory #(.ENTRY_BITS(SEGMENT_BITS)) segments (.clk(clk), .write(is_segment_write),
         .write_address(write_address[SEGMENT_BITS+4:3]), .write_data(write_data),
-        .read_address(load ? {piece, piece_field} : scan_address), .word(piece_word));
+        .read_address(load || check ? {load ? piece : frame_at[SEGMENT_BITS-1:0], entry_field} : scan_address),
+        .word(entry_word));
     axis_frame_scanner #(.ENTRY_BITS(SEGMENT_BITS)) scanner (.clk(clk), .head(segment_head), .run(run[23:0]),
-        .drop_own(drop_own), .drop_others(drop_others), .take(take), .pause(load), .address(scan_address),
-        .word(piece_word), .settled(frame_settled), .valid(frame_valid), .good(frame_good), .taken(frame_at),
-        .is_last(frame_is_last), .is_of_run(frame_is_of_run), .number(frame_number), .start(frame_start),
-        .count(frame_count), .body_pieces(frame_body_pieces), .tail_pieces(frame_tail_pieces), .phase(frame_phase));
+        .drop_own(drop_own), .drop_others(drop_others), .take(take), .pause(load || check), .address(scan_address),
+        .word(entry_word), .settled(frame_settled), .valid(frame_valid), .good(frame_good), .taken(frame_at),
+        .is_last(frame_is_last), .is_of_run(frame_is_of_run), .number(frame_number),
+        .body_pieces(frame_body_pieces), .tail_pieces(frame_tail_pieces));
 
     wire due_outputs, silence_outputs, end_outputs, is_cut, begins_body, begins_tail, rests, in_motion;
     wire outputs_busy, outputs_settled, outputs_well;
@@ -169,7 +172,8 @@ module axis_device #(
         .head(output_head), .run(run[23:0]), .frame(frame[31:0]), .restart(changes_run), .rests(rests),
         .in_motion(in_motion), .drop_own(drop_own), .take(begins_body), .settled(outputs_settled),
         .is_well(outputs_well),
-        .tail(output_tail), .first(first_output), .behind(behind_outputs), .pause(reads_setup || reads_direct || asks_request || reads_entry),
+        .tail(output_tail), .first(first_output), .behind(behind_outputs),
+        .pause(reads_setup || reads_direct || asks_request || reads_entry),
         .address(output_scan_address), .word(device_word));
     axis_outputs #(.ENTRY_BITS(OUTPUT_BITS), .DIGITAL(DIGITAL), .ANALOG(ANALOG)) outputs (.clk(clk),
         .direct(direct_outputs), .due(due_outputs), .begin_body(begins_body), .is_well(outputs_well),
@@ -182,11 +186,12 @@ module axis_device #(
         .gives_slope(gives_slope), .asks_slope(asks_slope), .has_slope(has_slope), .is_zero(is_zero),
         .events_busy(events_busy), .levels(digital));
 
-    wire halt, rebase, rest, idle, overflow, engine_step, engine_backward, is_same_phase;
+    wire halt, rebase, rest, idle, overflow, engine_step, engine_backward;
+    wire is_past, is_now, is_place, is_same_phase, is_rest_phase;
     wire capture_full, triggered, publish, publish_busy;
     wire [16:0] status;
     axis_sequencer #(.INPUTS(INPUTS), .ENTRY_BITS(SEGMENT_BITS), .SETTLE_CLOCKS(SETTLE_CLOCKS)) sequencer (.clk(clk),
-        .tick(tick), .busy(busy), .ticks(ticks), .first_tick(first_tick), .run_request(run_request),
+        .tick(tick), .busy(busy), .ticks(ticks), .run_request(run_request),
         .trigger_request(trigger), .armed(armed), .veto(veto), .stop(stop), .enable(enable),
         .setup_is_new(asks_setup), .start_setup(start_setup), .setup_busy(setup_busy || events_busy),
         .setup_taken(setup_taken),
@@ -200,12 +205,13 @@ module axis_device #(
         .drop_own(drop_own), .drop_others(drop_others), .take(take),
         .frame_settled(frame_settled), .frame_valid(frame_valid), .frame_good(frame_good), .frame_at(frame_at),
         .frame_is_last(frame_is_last), .frame_is_of_run(frame_is_of_run), .frame_number(frame_number),
-        .frame_start(frame_start), .frame_count(frame_count), .frame_body_pieces(frame_body_pieces),
-        .frame_tail_pieces(frame_tail_pieces), .frame_phase(frame_phase), .load(load), .piece(piece),
-        .accelerate(accelerate), .travel(travel), .check(check), .done(engine_done), .is_same_phase(is_same_phase),
+        .frame_body_pieces(frame_body_pieces),
+        .frame_tail_pieces(frame_tail_pieces), .power_up(powers_up), .load(load), .piece(piece), .advance(advance),
+        .accelerate(accelerate), .travel(travel), .check(check), .done(adder_done), .is_past(is_past),
+        .is_now(is_now), .is_place(is_place), .is_same_phase(is_same_phase), .is_rest_phase(is_rest_phase),
         .halt(halt), .rebase(rebase), .rest(rest), .idle(idle), .overflow(overflow),
         .engine_step(engine_step), .engine_backward(engine_backward), .step(step), .forward(forward),
-        .capture_full(capture_full), .publish(publish), .publish_busy(publish_busy), .now(now), .status(status),
+        .capture_full(capture_full), .publish(publish), .publish_busy(publish_busy), .status(status),
         .run(run), .frame(frame), .triggered(triggered), .segment_tail(segment_tail),
         .enabled(enabled));
 
@@ -214,8 +220,10 @@ module axis_device #(
     wire is_event_read = read_address[19:16] == LOCKSTEP_EVENT_RING[19:16];
     axis_adder #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS), .SEGMENT_BITS(SEGMENT_BITS),
         .OUTPUT_BITS(OUTPUT_BITS), .ANALOG(ANALOG)) adder (.clk(clk), .busy(events_busy),
-        .load(load), .piece_field(piece_field), .piece_word(piece_word), .accelerate(accelerate), .travel(travel),
-        .check(check), .done(engine_done), .is_same_phase(is_same_phase), .frame_phase(frame_phase),
+        .power_up(powers_up), .first_tick(first_tick), .load(load), .entry_field(entry_field),
+        .entry_word(entry_word), .advance(advance), .accelerate(accelerate), .travel(travel), .check(check),
+        .done(adder_done), .is_past(is_past), .is_now(is_now), .is_place(is_place),
+        .is_same_phase(is_same_phase), .is_rest_phase(is_rest_phase),
         .rebase(rebase), .rest(rest), .halt(halt), .idle(idle), .overflow(overflow), .engine_step(engine_step),
         .backward(engine_backward),
         .step(step), .forward(forward), .capture_tail(capture_tail), .capture_full(capture_full),
@@ -225,8 +233,9 @@ module axis_device #(
         .channel(!output_changes ? changed_input : is_analog ? changed_output : 5'd0),
         .levels(!output_changes ? {15'd0, changed_closed} : is_analog ? 16'd0 : digital), .gives_value(gives_value),
         .keeps_value(keeps_value), .gives_slope(gives_slope), .asks_slope(asks_slope), .has_slope(has_slope),
-        .is_zero(is_zero), .tick(ticks), .analog(analog), .event_tail(event_tail), .publish(publish), .hold(hold), .publish_busy(publish_busy),
-        .is_published(is_published), .now(now), .status(status), .run(run), .frame(frame), .segment_tail(segment_tail),
+        .is_zero(is_zero), .tick(ticks), .analog(analog), .event_tail(event_tail), .publish(publish), .hold(hold),
+        .publish_busy(publish_busy),
+        .is_published(is_published), .status(status), .run(run), .frame(frame), .segment_tail(segment_tail),
         .inputs({{(32 - INPUTS){1'b0}}, closed}), .outputs(digital), .output_tail(output_tail),
         .reads_event(is_event_read), .read_event(read_address[EVENT_BITS+4:3]), .read_word_number(read_address[7:3]),
         .read_word(shown_word), .read_entry(read_address[CAPTURE_BITS+2:3]), .read_step(captured_step));

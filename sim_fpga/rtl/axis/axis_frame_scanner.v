@@ -17,7 +17,9 @@ module axis_frame_scanner #(
     // The ring's memory. The sequencer has it while it is paused.
     input pause,
     output [ENTRY_BITS+1:0] address,
+    // verilator lint_off UNUSED
     input [63:0] word,
+    // verilator lint_on UNUSED
     output settled,             // nothing of what follows changes until the host or the sequencer acts
     output valid,               // there is a frame
     output good,                // it is whole and can be run
@@ -25,11 +27,8 @@ module axis_frame_scanner #(
     output is_last,
     output is_of_run,
     output reg [31:0] number,
-    output reg [63:0] start,
-    output reg [31:0] count,
     output reg [15:0] body_pieces,
-    output reg [15:0] tail_pieces,
-    output reg [63:0] phase
+    output reg [15:0] tail_pieces
 );
     localparam LOOK = 0, HEADER = 1, CHECK = 2, KNOWN = 3;
     reg [1:0] state;
@@ -60,7 +59,7 @@ module axis_frame_scanner #(
 
     initial begin
         {state, at, asked, loaded, is_header, is_last_frame, is_well, tag_run, taken} = 0;
-        {number, start, count, body_pieces, tail_pieces, phase} = 0;
+        {number, body_pieces, tail_pieces} = 0;
     end
     always @(posedge clk) begin
         loaded <= head - taken;
@@ -75,18 +74,14 @@ module axis_frame_scanner #(
                 end
             end
             HEADER: if (asked) begin
-                at <= at + 1'b1;
-                case (at[1:0])
-                    0: {number, tag_run, is_last_frame, is_header} <= {word[63:8], word[1:0]};
-                    1: start <= word;
-                    2: {tail_pieces, body_pieces, count} <= word;
-                    3: begin
-                        phase <= word;
-                        at <= 1;
-                        state <= CHECK;
-                        is_well <= 1;
-                    end
-                endcase
+                at <= 2;
+                if (at == 0) {number, tag_run, is_last_frame, is_header} <= {word[63:8], word[1:0]};
+                else begin
+                    {tail_pieces, body_pieces} <= word[63:32];
+                    at <= 1;
+                    state <= CHECK;
+                    is_well <= 1;
+                end
             end
             CHECK: if (!is_possible || !is_well || (is_whole && {1'b0, at} > pieces)) begin
                 state <= KNOWN;

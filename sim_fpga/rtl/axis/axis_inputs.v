@@ -12,7 +12,7 @@ module axis_inputs #(
     input set_debounce,         // for one clock: of this input
     input [4:0] debounce_input,
     input [31:0] debounce_ticks,
-    input [31:0] now,
+    input tick,                 // for one clock: another tick
     input look,                 // for one clock: look at the pins
     output busy,                // from the clock after `look` on
     output reg [INPUTS-1:0] closed, // changes when a look ends
@@ -25,6 +25,7 @@ module axis_inputs #(
     (* no_rw_check *) reg [31:0] debounce[0:31];
     (* no_rw_check *) reg [31:0] since[0:31]; // of the pending ones, when the pin changed
     reg [31:0] debounce_word, since_word;
+    reg [31:0] now;             // ticks since power-up
     reg [INPUTS-1:0] pending;   // the pin has another level than the input
     reg [INPUTS-1:0] different; // the same at this look
     reg [INPUTS-1:0] changed;
@@ -46,7 +47,7 @@ module axis_inputs #(
 
     integer i;
     initial begin
-        {closed, pending, different, changed, at, asked, scans, notes} = 0;
+        {now, closed, pending, different, changed, at, asked, scans, notes} = 0;
         for (i = 0; i < 32; i = i + 1) begin
             debounce[i] = 0;
             since[i] = 0;
@@ -59,6 +60,7 @@ module axis_inputs #(
         if (scans && asked && !notes && is_different && !is_pending) since[at] <= now;
     end
     always @(posedge clk) begin
+        if (tick) now <= now + 1'b1;
         asked <= scans && !asked && !wait_for_event;
         if (look && (differs != 0 || pending != 0)) begin
             scans <= 1;

@@ -14,7 +14,6 @@ module axis_sequencer #(
     input tick,                 // for one clock
     output busy,
     output ticks,               // for one clock: the tick is executed
-    input [63:0] first_tick,    // TICK at power-up
     // The host's words.
     input [63:0] run_request,
     input [32:0] trigger_request,
@@ -67,19 +66,22 @@ module axis_sequencer #(
     input frame_is_last,
     input frame_is_of_run,
     input [31:0] frame_number,
-    input [63:0] frame_start,
-    input [31:0] frame_count,
     input [15:0] frame_body_pieces,
     input [15:0] frame_tail_pieces,
-    input [63:0] frame_phase,
     // The pieces, and the engine that runs them: axis_adder.v. It does these until `done`.
-    output load,                // the ring's memory is its own meanwhile
+    output power_up,
+    output load,
     output reg [ENTRY_BITS-1:0] piece, // the present one in the ring
+    output advance,
     output accelerate,
     output travel,
     output check,
     input done,
-    input is_same_phase,        // a clock after `done` of the check
+    input is_past,              // of the next frame, when it is checked
+    input is_now,
+    input is_place,
+    input is_same_phase,
+    input is_rest_phase,
     output halt,
     output rebase,
     output rest,
@@ -94,7 +96,6 @@ module axis_sequencer #(
     // The registers.
     output publish,             // for one clock
     input publish_busy,
-    output reg [63:0] now,
     output [16:0] status,
     output reg [63:0] run,
     output reg [63:0] frame,
@@ -111,7 +112,6 @@ module axis_sequencer #(
         BY_HOST = 1 << 8, BAD_SEGMENT = 1 << 9, OVERFLOWS = 1 << 10, BY_INPUT = 1 << 13,
         BAD_OUTPUT = 1 << 15;
     localparam [8:0] MOST_WAITED = SETTLE_CLOCKS;
-    localparam [63:0] REST_PHASE = 64'h8000000000000000;
 
     wire is_settled = frame_settled && outputs_settled;
     reg [4:0] state, next, back; // `back`: when the outputs have changed
@@ -125,7 +125,7 @@ module axis_sequencer #(
     reg is_last;
     reg [15:0] body_left, tail_left; // pieces, with the present one
     reg [ENTRY_BITS:0] frame_begin;     // where the present frame begins in the ring
-    reg [31:0] count;           // low bits of COUNT
+    reg is_checking;            // the next frame
     reg is_set_up, is_refused;  // a setup was taken; the last one was refused
     reg is_enabled;
     reg [31:0] enabled_for;
@@ -141,21 +141,17 @@ module axis_sequencer #(
 
     // The next frame: 1 while the run waits for it. What SETTLE compares in its last clock, ACT decides about.
     reg [63:0] number;
-    reg is_vetoed, is_armed, is_of_request, is_number, is_past, is_now, is_place, rests;
+    reg is_vetoed, is_armed, is_of_request, is_number;
     always @(posedge clk) begin
         number <= frame + 1'b1;
         is_vetoed <= veto <= number;
         is_armed <= armed >= number;
         is_of_request <= run_request == run;
         is_number <= frame_number == number[31:0];
-        is_past <= $signed(frame_start) <= $signed(now);
-        is_now <= frame_start == now;
-        is_place <= frame_count == count;
-        rests <= frame_phase == REST_PHASE || frame_phase == REST_PHASE - 1'b1;
     end
     wire may_run = !is_vetoed && is_armed && is_of_request && may_move;
     wire is_here = is_now && is_place;
-    wire joins = is_number && is_here && (is_same_phase || (motion == WAITING && rests));
+    wire joins = is_number && is_here && (is_same_phase || (motion == WAITING && is_rest_phase));
     wire is_good = frame_good && frame_valid;
 
     wire [INPUTS-1:0] of_trigger = trigger[INPUTS-1:0] & closed;
@@ -232,9 +228,11 @@ module axis_sequencer #(
     assign changes_run = ends || takes_run;
     assign triggered = ends && reason[7];
     assign load = state == FETCH;
-    assign accelerate = state == ACCELERATE && in_motion;
+    assign power_up = state == POWER_UP;
+    assign advance = state == ACCELERATE;
+    assign accelerate = in_motion;
     assign travel = state == TRAVEL && in_motion && !overflow;
-    assign check = state == SETTLE;
+    assign check = state == SETTLE && (is_settled || waited == MOST_WAITED || is_checking);
     assign step = state == STEP && engine_step && !is_blocked;
     assign forward = !engine_backward;
     assign publish = state == PUBLISH;
@@ -252,17 +250,16 @@ module axis_sequencer #(
         {owed, has_lost_ticks, is_after, motion, waited, trigger, run_bits, is_last, body_left, tail_left} = 0;
         {piece, frame_begin} = 0;
         {is_set_up, is_refused, is_enabled, enabled_for, stepped, stepped_backward, into_limit} = 0;
-        {number, is_vetoed, is_armed, is_of_request, is_number, is_past, is_now, is_place, rests} = 0;
-        {now, count, run, frame} = 0;
+        {number, is_vetoed, is_armed, is_of_request, is_number} = 0;
+        {run, frame, is_checking} = 0;
     end
 
     // The order of work.
     always @(posedge clk) begin
         owed <= owed + {7'd0, tick} - {7'd0, state == IDLE && owed != 0};
         if (tick && in_motion && (owed != 0 || is_before_step)) has_lost_ticks <= 1;
-        waited <= state == SETTLE ? waited + 1'b1 : 9'd0;
-        if (state == POWER_UP) now <= first_tick;
-        else if (state == ACCELERATE && (done || !in_motion)) now <= now + 1'b1;
+        waited <= state != SETTLE ? 9'd0 : waited + {8'd0, waited != MOST_WAITED};
+        is_checking <= check;
         if (state == IDLE) is_after <= 0;
         else if (ticks) is_after <= 1;
         state <= asks ? OUTPUTS : next;
@@ -272,7 +269,7 @@ module axis_sequencer #(
     // The outputs do what they are asked for before the work goes on.
     wire asks = ends || state == DIRECT || state == DUE || falls_silent;
     always @* case (state)
-        POWER_UP: next = PUBLISH;
+        POWER_UP: next = done ? PUBLISH : POWER_UP;
         IDLE: next = owed != 0 ? SETUP : IDLE;
         SETUP: next = start_setup ? TAKE_SETUP : ENABLE;
         TAKE_SETUP: next = setup_busy ? TAKE_SETUP : ENABLE;
@@ -286,10 +283,10 @@ module axis_sequencer #(
         TEND: next = inputs_busy ? TEND : TENDED;
         TENDED: next = DECIDE;
         DECIDE: next = !in_motion || idle ? SETTLE : is_after ? PUBLISH : ACCELERATE;
-        SETTLE: next = done && (is_settled || waited >= MOST_WAITED) ? ACT : SETTLE;
+        SETTLE: next = done ? ACT : SETTLE;
         ACT: next = begins_frame || begins_tail || goes_on ? FETCH : is_after ? PUBLISH : ACCELERATE;
         FETCH: next = !done ? FETCH : is_after ? PUBLISH : ACCELERATE;
-        ACCELERATE: next = done || !in_motion ? TRAVEL : ACCELERATE;
+        ACCELERATE: next = done ? TRAVEL : ACCELERATE;
         TRAVEL: next = done || !travel ? STEP : TRAVEL;
         STEP: next = DUE;
         PUBLISH: next = PUBLISHED;
@@ -345,7 +342,6 @@ module axis_sequencer #(
             stepped_backward <= engine_backward;
             into_limit <= engine_step && is_blocked;
         end else if (state == TENDED) {stepped, into_limit} <= 0;
-        if (step) count <= engine_backward ? count - 1'b1 : count + 1'b1;
     end
 `ifdef PROOF
 `include "axis_sequencer_properties.vh"

@@ -82,7 +82,7 @@ TEST(AxisHardware, EndsTheRunInTheTickInWhichTheVelocityLeaves64Bits) {
 }
 
 /// The pins would show its step too late.
-TEST(AxisHardware, ATickThatIsNotDoneBeforeTheNextEndsTheRunAndAllFurtherOnes) {
+TEST(AxisHardware, ATickWhoseStepIsNotMadeBeforeTheNextOneEndsTheRunAndAllFurtherOnes) {
     using namespace registers;
     VerilogDevice<Vaxis_device> device(Tick{0});
     const auto write = [&](std::size_t offset, std::uint64_t value) { device.write(offset, value); };
@@ -104,6 +104,21 @@ TEST(AxisHardware, ATickThatIsNotDoneBeforeTheNextEndsTheRunAndAllFurtherOnes) {
     device.write(kRunRequest, 2);
     EXPECT_EQ(run_ticks(20), 0);
     EXPECT_EQ(device.read(kStatus), kStatusFinished | kStatusLostTicks | kStatusEnabled);
+}
+
+TEST(AxisHardware, ATickThatEndsLateAfterItsStepLosesNothing) {
+    using namespace registers;
+    VerilogDevice<Vaxis_device> device(Tick{0});
+    const auto write = [&](std::size_t offset, std::uint64_t value) { device.write(offset, value); };
+    run_one_frame(write, 2, 40, std::uint64_t{1} << 62, 0);
+    for (int ticks = 0; ticks < 50; ticks += 2) {
+        device.begin_tick();
+        for (int clocks = 0; clocks < 50; clocks += 2) { (void)device.read(kTick); }  // its step is made in these
+        EXPECT_TRUE(device.is_busy());
+        (void)device.tick(0, [](int) { return 0U; });
+    }
+    EXPECT_EQ(device.read(kCount), 10);
+    EXPECT_EQ(device.read(kStatus), kStatusFinished | kStatusEnabled);
 }
 
 }  // namespace

@@ -42,6 +42,12 @@ public:
     /// While they are held, the device's words stay as they are, and ticks take fewer clocks.
     void hold_words(bool held) { hardware_.pins.hold = held; }
 
+    /// A tick is being executed.
+    bool is_busy() {
+        hardware_.pins.eval();
+        return hardware_.pins.busy != 0;
+    }
+
     /// A tick that is not awaited.
     void begin_tick() {
         hardware_.pins.tick = 1;

@@ -68,8 +68,9 @@ MUTANTS = [
 
 LONG_MUTANTS = [
     ("axis_device", "axis/axis_sequencer.v", "is_of_request <= run_request == run", "is_of_request <= 1"),
-    ("axis_device", "axis/axis_sequencer.v", "is_now <= frame_start == now", "is_now <= 1"),
-    ("axis_device", "axis/axis_sequencer.v", "is_same_phase || (motion == WAITING && rests)", "is_same_phase || rests"),
+    ("axis_device", "axis/axis_adder.v", "is_now <= is_equal;", "is_now <= 1;"),
+    ("axis_device", "axis/axis_adder.v", "? !addend[63] : sum[64]; // signed", "? !addend[63] : 1'b1;"),
+    ("axis_device", "axis/axis_sequencer.v", "is_same_phase || (motion == WAITING && is_rest_phase)", "is_same_phase || is_rest_phase"),
     ("axis_device", "axis/axis_sequencer.v", "state == STEP && engine_step && !is_blocked", "state == STEP && engine_step"),
     ("axis_device", "axis/axis_sequencer.v", "(ends && into_limit);", "1'b0;"),
     ("axis_device", "axis/axis_sequencer.v", "enabled_for >= enable_ticks", "enabled_for > enable_ticks"),
