@@ -1,8 +1,5 @@
 // The device's adder. What it adds and counts is in memory: the motor's velocity and phase, the sums and the counters
-// of the map, and the values of the analog outputs. It also puts what the host reads into memory: the words of the map,
-// the capture ring and the event ring (sim_fpga/capture_ring.hpp, sim_fpga/event_ring.hpp).
-//
-// It does one thing at a time, in some clocks:
+// of the map, and the values of the analog outputs. It does one thing at a time, in some clocks:
 // - It is the step engine, core/step/tick_engine.hpp: velocity += acceleration and phase += velocity at each tick.
 //   PHASE is position + 1/2 step modulo one step; a step forward is the carry of phase + velocity, a step backward its
 //   borrow.
@@ -88,9 +85,9 @@ module axis_adder #(
     input reads_event,
     input [EVENT_BITS+1:0] read_event,
     input [4:0] read_word_number,
-    output reg [63:0] read_word, // of the map, or of the event ring
+    output [63:0] read_word,    // of the map, or of the event ring
     input [CAPTURE_BITS-1:0] read_entry,
-    output reg [63:0] read_step
+    output [63:0] read_step
 );
     // The words that are counted: those of the map by their numbers, from 0x0100 on, and others.
     localparam [5:0] SEQUENCE = 0, NOW = 1, COUNT = 3, PHASE = 4, VELOCITY = 5, TRIGGER_COUNT = 8, ENCODER = 9,
@@ -110,16 +107,14 @@ module axis_adder #(
         LOAD_VELOCITY = 34, LOAD_ACCELERATION = 35, ADVANCE = 36, ACCELERATE = 37, ACCELERATED = 38, TRAVEL = 39,
         TRAVELLED = 40, CHECK_START = 41, CHECK_PAST = 42, CHECK_COUNT = 43, CHECK_PHASE = 44, CHECKED = 45, REBASE =
         46, REBASED = 47, POWER_UP = 48;
-    localparam SHOWN_BITS = EVENT_BITS + 2 > 5 ? EVENT_BITS + 2 : 5;
     reg [5:0] state, next;
     reg asks_step, asks_trigger, asks_event, asks_slide, asks_setup, asks_rebase;
     reg to_rest;                // the motor's phase becomes that of a whole step
     reg [31:0] left;            // ticks of the present piece
-    reg goes_forward, was_full; // the step
+    reg goes_forward;           // the step
     reg [1:0] its_kind;         // the event
     reg [4:0] its_channel;
     reg [15:0] its_levels;
-    reg is_lost;
     reg [2:0] output_at;        // the analog output
     reg [ANALOG-1:0] slides_left;
     reg [5:0] number;           // the word that is published
@@ -162,28 +157,21 @@ module axis_adder #(
         default: word = counted_word;
     endcase
 
-    // What the host reads.
-    (* no_rw_check *) reg [63:0] shown[0:(2 << SHOWN_BITS)-1]; // the map's words, then the event ring
-    (* no_rw_check *) reg [63:0] steps[0:(1 << CAPTURE_BITS)-1];
-    reg [CAPTURE_BITS:0] steps_head; // low bits of CAPTURE_HEAD and of EVENT_HEAD
-    reg [EVENT_BITS:0] events_head;
-    reg [EVENT_BITS-1:0] entry;
-    reg shows;
-    wire is_note = state != SHOW;
-    wire [SHOWN_BITS-1:0] note = {{(SHOWN_BITS - EVENT_BITS - 2){1'b0}}, entry, state[1:0]};
-    wire [SHOWN_BITS-1:0] map_word = {{(SHOWN_BITS - 5){1'b0}}, number[4:0]};
-    wire [SHOWN_BITS-1:0] read_note = {{(SHOWN_BITS - EVENT_BITS - 2){1'b0}}, read_event};
-    wire [SHOWN_BITS-1:0] read_map_word = {{(SHOWN_BITS - 5){1'b0}}, read_word_number};
-    wire [CAPTURE_BITS:0] steps_used = steps_head - capture_tail;
-    wire [EVENT_BITS:0] events_used = events_head - event_tail;
-    assign capture_full = steps_used[CAPTURE_BITS];
-    wire events_full = events_used[EVENT_BITS];
+    wire was_full, is_lost;     // the step or the event is lost
+    reg shows;                  // `word` is put where the host reads it
+    axis_shown #(.CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS)) shown (.clk(clk), .word(word), .step(step),
+        .capture_tail(capture_tail), .capture_full(capture_full), .step_is_lost(was_full),
+        .puts_step(state == STEP_TICK && !was_full), .note(put), .event_tail(event_tail), .note_is_lost(is_lost),
+        .puts_note(shows && state != SHOW), .note_field(state[1:0]), .puts_word(shows), .number(number[4:0]),
+        .reads_event(reads_event), .read_event(read_event), .read_word_number(read_word_number),
+        .read_word(read_word), .read_entry(read_entry), .read_step(read_step));
     assign idle = left == 0;
     assign asks_request = state == ASK_SETUP;
     assign asks_slope = state == GIVE_VALUE;
     assign busy = asks_step || asks_slide || asks_trigger || asks_event || asks_setup || asks_rebase ||
         (state != REST && (state < OPEN || state > SHOW) && state < LOAD) || state == REBASE || state == REBASED;
 
+    // What it does in each state: a word that is read is there in the next one.
     always @* begin
         next = REST;
         read = ZERO;
@@ -227,25 +215,10 @@ module axis_adder #(
                 next = OPEN;
                 read = SEQUENCE;
             end
-            POWER_UP: begin
-                counts = 1;
-                counts_as = NOW;
-                done = 1;
-            end
-            REBASE: begin
-                next = REBASED;
-                adds = 1;
-            end
-            REBASED: begin
-                counts = 1;
-                counts_as = PHASE;
-            end
-            LOAD: begin
-                entry_field = 2;
-                next = LOAD_VELOCITY;
-                select = ENTRY;
-                adds = 1;
-            end
+            POWER_UP: begin counts = 1; counts_as = NOW; done = 1; end
+            REBASE: begin next = REBASED; adds = 1; end
+            REBASED: begin counts = 1; counts_as = PHASE; end
+            LOAD: begin entry_field = 2; next = LOAD_VELOCITY; select = ENTRY; adds = 1; end
             LOAD_VELOCITY: begin
                 entry_field = 0;
                 next = LOAD_ACCELERATION;
@@ -254,11 +227,7 @@ module axis_adder #(
                 select = ENTRY;
                 adds = 1;
             end
-            LOAD_ACCELERATION: begin
-                counts = 1;
-                counts_as = ACCELERATION;
-                done = 1;
-            end
+            LOAD_ACCELERATION: begin counts = 1; counts_as = ACCELERATION; done = 1; end
             ADVANCE: begin
                 next = accelerate ? ACCELERATE : REST;
                 counts = 1;
@@ -266,24 +235,10 @@ module axis_adder #(
                 read = ACCELERATION;
                 done = !accelerate;
             end
-            ACCELERATE: begin
-                next = ACCELERATED;
-                adds = 1;
-                read = VELOCITY;
-            end
-            ACCELERATED: begin
-                counts = 1;
-                done = 1;
-            end
-            TRAVEL: begin
-                next = TRAVELLED;
-                adds = 1;
-                read = PHASE;
-            end
-            TRAVELLED: begin
-                counts = 1;
-                done = 1;
-            end
+            ACCELERATE: begin next = ACCELERATED; adds = 1; read = VELOCITY; end
+            ACCELERATED: begin counts = 1; done = 1; end
+            TRAVEL: begin next = TRAVELLED; adds = 1; read = PHASE; end
+            TRAVELLED: begin counts = 1; done = 1; end
             CHECK_START: begin
                 next = CHECK_PAST;
                 select = ENTRY;
@@ -292,87 +247,22 @@ module axis_adder #(
                 read = NOW;
                 entry_field = 2;
             end
-            CHECK_PAST: begin
-                next = CHECK_COUNT;
-                carry = 1;
-                read = COUNT;
-                entry_field = 2;
-            end
-            CHECK_COUNT: begin
-                next = CHECK_PHASE;
-                select = ENTRY;
-                read = PHASE;
-                entry_field = 3;
-            end
-            CHECK_PHASE: begin
-                next = CHECKED;
-                select = ENTRY;
-                adds = 1;
-            end
-            CHECKED: begin
-                counts = 1;
-                counts_as = FRAME_PHASE;
-                done = 1;
-            end
-            STEP_HEAD: begin
-                next = STEP_LOST;
-                counts = 1;
-                carry = !was_full;
-                read = CAPTURE_LOST;
-            end
-            STEP_LOST: begin
-                next = STEP_COUNT;
-                counts = 1;
-                carry = was_full;
-                select = SIGN;
-                adds = 1;
-                read = COUNT;
-            end
-            STEP_COUNT: begin
-                next = STEP_TICK;
-                counts = 1;
-                carry = goes_forward;
-                read = NOW;
-            end
-            STEP_TICK: begin
-                next = STEP_SUM;
-                select = STEP;
-                adds = 1;
-                read = CAPTURE_SUM;
-            end
-            STEP_SUM: begin
-                next = STEP_SUMMED;
-                counts = 1;
-            end
-            STEP_SUMMED: begin
-                next = STEP_SUMS;
-                read = CAPTURE_SUM;
-            end
-            STEP_SUMS: begin
-                next = STEP_END;
-                adds = 1;
-                read = CAPTURE_SUMS;
-            end
+            CHECK_PAST: begin next = CHECK_COUNT; carry = 1; read = COUNT; entry_field = 2; end
+            CHECK_COUNT: begin next = CHECK_PHASE; select = ENTRY; read = PHASE; entry_field = 3; end
+            CHECK_PHASE: begin next = CHECKED; select = ENTRY; adds = 1; end
+            CHECKED: begin counts = 1; counts_as = FRAME_PHASE; done = 1; end
+            STEP_HEAD: begin next = STEP_LOST; counts = 1; carry = !was_full; read = CAPTURE_LOST; end
+            STEP_LOST: begin next = STEP_COUNT; counts = 1; carry = was_full; select = SIGN; adds = 1; read = COUNT; end
+            STEP_COUNT: begin next = STEP_TICK; counts = 1; carry = goes_forward; read = NOW; end
+            STEP_TICK: begin next = STEP_SUM; select = STEP; adds = 1; read = CAPTURE_SUM; end
+            STEP_SUM: begin next = STEP_SUMMED; counts = 1; end
+            STEP_SUMMED: begin next = STEP_SUMS; read = CAPTURE_SUM; end
+            STEP_SUMS: begin next = STEP_END; adds = 1; read = CAPTURE_SUMS; end
             STEP_END: counts = 1;
-            TRIGGER: begin
-                next = TRIGGERED;
-                adds = 1;
-            end
-            TRIGGERED: begin
-                counts = 1;
-                counts_as = TRIGGER_COUNT;
-            end
-            NOTE_HEAD: begin
-                next = NOTE_TICK;
-                counts = 1;
-                carry = !is_lost;
-                read = NOW;
-            end
-            NOTE_TICK: begin
-                next = NOTE_WHAT;
-                shows = !is_lost;
-                read = EVENT_LOST;
-            end
+            TRIGGER: begin next = TRIGGERED; adds = 1; end
+            TRIGGERED: begin counts = 1; counts_as = TRIGGER_COUNT; end
+            NOTE_HEAD: begin next = NOTE_TICK; counts = 1; carry = !is_lost; read = NOW; end
+            NOTE_TICK: begin next = NOTE_WHAT; shows = !is_lost; read = EVENT_LOST; end
             NOTE_WHAT: begin
                 next = its_kind == 2 ? GIVE_VALUE : NOTE_VALUE;
                 counts = 1;
@@ -381,11 +271,7 @@ module axis_adder #(
                 shows = !is_lost;
                 read = its_kind != 2 ? COUNT : keeps_value ? {VALUES, 1'b0, its_channel[2:0]} : ZERO;
             end
-            GIVE_VALUE: begin
-                next = GIVE_SLOPE;
-                select = gives_value ? HOST : ZERO;
-                adds = 1;
-            end
+            GIVE_VALUE: begin next = GIVE_SLOPE; select = gives_value ? HOST : ZERO; adds = 1; end
             GIVE_SLOPE: begin
                 next = SLOPE_GIVEN;
                 counts = 1;
@@ -409,59 +295,18 @@ module axis_adder #(
                 next = slides_left[0] ? SLIDE_SLOPE : SLIDE;
                 read = {SLOPES, 1'b0, output_at};
             end
-            SLIDE_SLOPE: begin
-                next = SLIDE_VALUE;
-                adds = 1;
-                read = {VALUES, 1'b0, output_at};
-            end
-            SLIDE_VALUE: begin
-                next = SLIDE;
-                counts = 1;
-            end
+            SLIDE_SLOPE: begin next = SLIDE_VALUE; adds = 1; read = {VALUES, 1'b0, output_at}; end
+            SLIDE_VALUE: begin next = SLIDE; counts = 1; end
             ASK_SETUP: next = TAKE_SETUP;
-            TAKE_SETUP: begin
-                next = SETUP_TAKEN;
-                select = HOST;
-                adds = 1;
-            end
-            SETUP_TAKEN: begin
-                counts = 1;
-                counts_as = SETUP;
-            end
-            OPEN: begin
-                next = OPENED;
-                counts = 1;
-                carry = 1;
-            end
-            OPENED: begin
-                next = is_closing ? SHOW : TAKE_SEGMENTS;
-                read = is_closing ? SEQUENCE : SEGMENT_TAIL;
-            end
-            TAKE_SEGMENTS: begin
-                next = SEGMENTS_TAKE;
-                select = SEGMENTS_TAKEN;
-                adds = 1;
-                read = SEGMENT_TAIL;
-            end
-            SEGMENTS_TAKE: begin
-                next = TAKE_OUTPUTS;
-                counts = 1;
-                read = OUTPUT_TAIL;
-            end
-            TAKE_OUTPUTS: begin
-                next = OUTPUTS_TAKE;
-                select = OUTPUTS_TAKEN;
-                adds = 1;
-                read = OUTPUT_TAIL;
-            end
-            OUTPUTS_TAKE: begin
-                next = BEGIN;
-                counts = 1;
-            end
-            BEGIN: begin
-                next = SHOW;
-                read = SEQUENCE;
-            end
+            TAKE_SETUP: begin next = SETUP_TAKEN; select = HOST; adds = 1; end
+            SETUP_TAKEN: begin counts = 1; counts_as = SETUP; end
+            OPEN: begin next = OPENED; counts = 1; carry = 1; end
+            OPENED: begin next = is_closing ? SHOW : TAKE_SEGMENTS; read = is_closing ? SEQUENCE : SEGMENT_TAIL; end
+            TAKE_SEGMENTS: begin next = SEGMENTS_TAKE; select = SEGMENTS_TAKEN; adds = 1; read = SEGMENT_TAIL; end
+            SEGMENTS_TAKE: begin next = TAKE_OUTPUTS; counts = 1; read = OUTPUT_TAIL; end
+            TAKE_OUTPUTS: begin next = OUTPUTS_TAKE; select = OUTPUTS_TAKEN; adds = 1; read = OUTPUT_TAIL; end
+            OUTPUTS_TAKE: begin next = BEGIN; counts = 1; end
+            BEGIN: begin next = SHOW; read = SEQUENCE; end
             SHOW: begin
                 next = is_closing ? REST : number == LAST ? OPEN : SHOW;
                 select = number;
@@ -490,8 +335,8 @@ module axis_adder #(
     end endgenerate
     integer i;
     initial begin
-        {state, asks_step, asks_trigger, asks_event, goes_forward, was_full, its_kind, its_channel, its_levels} = 0;
-        {is_lost, number, is_closing, asked, counted_word, addend, steps_head, events_head, entry} = 0;
+        {state, asks_step, asks_trigger, asks_event, goes_forward, its_kind, its_channel, its_levels} = 0;
+        {number, is_closing, asked, counted_word, addend} = 0;
         {publish_busy, is_published, asks_slide, output_at, slides_left, asks_setup, has_slope} = 0;
         is_zero = 8'hff;
         {is_past, is_now, is_place, is_same_phase, is_rest_phase} = 0;
@@ -499,19 +344,12 @@ module axis_adder #(
         for (i = 0; i < 64; i = i + 1) counted[i] = 0;
         counted[PHASE] = 64'd1 << 63;
         counted[REST_PHASE] = 64'd1 << 63;
-        for (i = 0; i < 32; i = i + 1) shown[i] = 0;
     end
     always @(posedge clk) begin
         if (counts) counted[counts_as] <= kept;
         counted_word <= counted[read];
         asked <= read;
         addend <= adds ? word ^ {64{inverts}} : 64'd0;
-    end
-    always @(posedge clk) begin
-        if (shows) shown[{is_note, is_note ? note : map_word}] <= word;
-        read_word <= shown[{reads_event, reads_event ? read_note : read_map_word}];
-        if (state == STEP_TICK && !was_full) steps[steps_head[CAPTURE_BITS-1:0]] <= word;
-        read_step <= steps[read_entry];
     end
     always @(posedge clk) begin
         state <= next;
@@ -522,16 +360,11 @@ module axis_adder #(
         asks_setup <= setup_taken || (asks_setup && state != TAKE_SETUP);
         if (step) begin
             goes_forward <= forward;
-            was_full <= capture_full;
         end
-        if (state == STEP_TICK && !was_full) steps_head <= steps_head + 1'b1;
         if (put) begin
             its_kind <= kind;
             its_channel <= channel;
             its_levels <= levels;
-            is_lost <= events_full;
-            entry <= events_head[EVENT_BITS-1:0];
-            if (!events_full) events_head <= events_head + 1'b1;
         end
         if (state == REST) begin
             slides_left <= has_slope[ANALOG-1:0];
