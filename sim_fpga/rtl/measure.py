@@ -136,7 +136,7 @@ def placed(netlist, options):
     run = subprocess.run(["nextpnr-ice40", *options, "--json", str(netlist), "--seed", "1", "--pcf-allow-unconstrained",
                           "--timing-allow-fail"], capture_output=True, text=True, check=False)
     found = re.findall(r"Max frequency for clock .*?: ([\d.]+) MHz", run.stderr)
-    if "no BELs remaining" in run.stderr:
+    if "no BELs remaining" in run.stderr or "Failed to expand region" in run.stderr:
         raise DoesNotFit
     if run.returncode or not found:
         raise RuntimeError(run.stderr[-2000:])
