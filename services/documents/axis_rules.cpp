@@ -14,7 +14,7 @@
 #include "services/documents/problem_list.hpp"
 #include "services/documents/rules/axis_ranges.hpp"
 #include "services/documents/rules/following_error_rule.hpp"
-#include "services/documents/rules/homing_input_rules.hpp"
+#include "services/documents/rules/homing_rules.hpp"
 #include "services/documents/rules/pin_rules.hpp"
 
 namespace lockstep {
@@ -38,11 +38,8 @@ public:
         check_ramp("max_decel_mm_s2", axis_.max_decel_mm_s2);
         check_travel();
         check_durations();
-        check_homing_speeds();
         if (has_own_motor()) { check_capture(); }
-        check_unhomed_jog();
-        check_homing_places();
-        check_homing_input(machine_, axis_, problems_);
+        check_homing(machine_, axis_, problems_);
         check_plant();
         check_pin_ranges(axis_.pins, "pins.", problems_);
         if (has_own_motor()) { check_method(); }
@@ -205,92 +202,22 @@ private:
                                               number_text(mm), number_text(kMaxSteps)));
     }
 
-    void check_homing_speeds() {
-        problems_.require_range("homing.sequence", axis_.homing.sequence, 0, 99);
-        const double search = axis_.homing.search_velocity_mm_s;
-        const double latch = axis_.homing.latch_velocity_mm_s;
-        problems_.require_between({"homing.search_velocity_mm_s", "start_velocity_mm_s"},
-                                  search <= axis_.start_velocity_mm_s,
-                                  fmt::format("homing.search_velocity_mm_s is {}, above start_velocity_mm_s {}: the "
-                                              "switch stops the pulses at once; decrease it",
-                                              number_text(search), number_text(axis_.start_velocity_mm_s)));
-        problems_.require_between(
-            {"homing.latch_velocity_mm_s", "homing.search_velocity_mm_s"}, latch <= search,
-            fmt::format("homing.latch_velocity_mm_s is {}, above homing.search_velocity_mm_s {}; decrease it",
-                        number_text(latch), number_text(search)));
-    }
-
-    void check_unhomed_jog() {
-        if (!axis_.unhomed_jog_mm_s) { return; }
-        problems_.require_between(
-            {"unhomed_jog_mm_s", "start_velocity_mm_s"}, *axis_.unhomed_jog_mm_s <= axis_.start_velocity_mm_s,
-            fmt::format("unhomed_jog_mm_s is {}, above start_velocity_mm_s {}: a limit switch stops the pulses at "
-                        "once; decrease it",
-                        number_text(*axis_.unhomed_jog_mm_s), number_text(axis_.start_velocity_mm_s)));
-    }
-
-    void check_homing_places() {
-        const HomingConfig& homing = axis_.homing;
-        check_switch();
-        check_pulloff(homing.toward_min ? axis_.position_max_mm - homing.switch_position_mm
-                                        : homing.switch_position_mm - axis_.position_min_mm);
-        check_within_travel("homing.park_mm", homing.park_mm);
-        if (axis_.safe_height_mm) { check_within_travel("safe_height_mm", *axis_.safe_height_mm); }
-    }
-
-    void check_within_travel(std::string_view key, double mm) {
-        problems_.require_between(
-            {key, "position_min_mm", "position_max_mm"}, mm >= axis_.position_min_mm && mm <= axis_.position_max_mm,
-            fmt::format("{} is {}, outside the travel; it must be from {} to {}", key, number_text(mm),
-                        number_text(axis_.position_min_mm), number_text(axis_.position_max_mm)));
-    }
-
-    /// The switch must lie on the side homed to, and the axis must reach it before the limit switch.
-    void check_switch() {
-        const double at = axis_.homing.switch_position_mm;
-        const double middle = (axis_.position_min_mm + axis_.position_max_mm) / 2;
-        const bool at_min = axis_.homing.toward_min;
-        const bool holds = at_min ? at > limit_min() && at <= middle : at < limit_max() && at >= middle;
-        problems_.require_between(
-            {"homing.switch_position_mm", "position_min_mm", "position_max_mm", "plant.travel_margin_mm"}, holds,
-            fmt::format("homing.switch_position_mm is {}; it must be on the side that the axis homes to, {} to {}, and "
-                        "not on the limit switch",
-                        number_text(at), number_text(at_min ? limit_min() : middle),
-                        number_text(at_min ? middle : limit_max())));
-    }
-
-    void check_pulloff(double room) {
-        const double pulloff = axis_.homing.pulloff_mm;
-        const std::string what = "homing.pulloff_mm is " + number_text(pulloff);
-        problems_.require_between(
-            {"homing.pulloff_mm", "steps_per_mm"}, is_at_least(pulloff * axis_.steps_per_mm, 1),
-            what + ", less than a step; it must be at least " + number_text(1 / axis_.steps_per_mm));
-        problems_.require_between(
-            {"homing.pulloff_mm", "homing.switch_position_mm", "position_min_mm", "position_max_mm"}, pulloff < room,
-            fmt::format("{}, not less than the travel from the switch, {}; decrease it", what, number_text(room)));
-        const double tolerance = axis_.homing.touch_tolerance_mm;
-        problems_.require_between(
-            {"homing.touch_tolerance_mm", "homing.pulloff_mm"}, tolerance < pulloff,
-            fmt::format("homing.touch_tolerance_mm is {}, not less than homing.pulloff_mm {}: two touches in a row "
-                        "never differ by more than the pull-off, so homing would accept every touch; decrease it",
-                        number_text(tolerance), number_text(pulloff)));
-    }
-
     void check_plant() {
         const double at = axis_.plant.start_position_mm;
         problems_.require_between(
             {"plant.start_position_mm", "position_min_mm", "position_max_mm", "plant.travel_margin_mm"},
-            at > limit_min() && at < limit_max(),
+            at > limit_min_mm(axis_) && at < limit_max_mm(axis_),
             fmt::format(
                 "plant.start_position_mm is {}, not between the limit switches; it must be above {} and below {}",
-                number_text(at), number_text(limit_min()), number_text(limit_max())));
+                number_text(at), number_text(limit_min_mm(axis_)), number_text(limit_max_mm(axis_))));
         if (!axis_.plant.probe_at_mm) { return; }
         const double probe = *axis_.plant.probe_at_mm;
         problems_.require_between(
-            {"plant.probe_at_mm", "plant.start_position_mm"}, probe > limit_min() && probe < limit_max() && probe != at,
+            {"plant.probe_at_mm", "plant.start_position_mm"},
+            probe > limit_min_mm(axis_) && probe < limit_max_mm(axis_) && probe != at,
             fmt::format("plant.probe_at_mm is {}; it must be above {}, below {}, and not at plant.start_position_mm, "
                         "because a probe touches there and beyond it as seen from the start",
-                        number_text(probe), number_text(limit_min()), number_text(limit_max())));
+                        number_text(probe), number_text(limit_min_mm(axis_)), number_text(limit_max_mm(axis_))));
     }
 
     /// Plans a trial move, so it runs only if the limits are valid.
@@ -311,8 +238,6 @@ private:
     }
 
     double tick_s() const { return static_cast<double>(machine_.tick_ns) * 1e-9; }
-    double limit_min() const { return axis_.position_min_mm - axis_.plant.travel_margin_mm; }
-    double limit_max() const { return axis_.position_max_mm + axis_.plant.travel_margin_mm; }
 
     const MachineConfig& machine_;
     const AxisConfig& axis_;

@@ -1,6 +1,7 @@
 // The ranges of an axis's values.
 #pragma once
 
+#include "core/machine.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep::axis_ranges {
@@ -14,6 +15,10 @@ inline constexpr double kMaxAccel_mm_s2 = 1e9;
 inline constexpr double kMinMargin_mm = 1e-9;  // less is lost in the rounding of places
 
 inline constexpr double kMaxSteps = 0x1p40;  // within the range where plans in double are exact
+
+/// Where the limit switches are.
+inline double limit_min_mm(const AxisConfig& axis) { return axis.position_min_mm - axis.plant.travel_margin_mm; }
+inline double limit_max_mm(const AxisConfig& axis) { return axis.position_max_mm + axis.plant.travel_margin_mm; }
 
 inline bool is_at_most(double value, double limit) { return value <= limit * (1 + kTextRounding); }
 inline bool is_at_least(double value, double limit) { return value >= limit * (1 - kTextRounding); }
