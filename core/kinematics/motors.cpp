@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/check.hpp"
+#include "core/kinematics/motor_limits.hpp"
 
 namespace lockstep {
 namespace {
@@ -105,13 +106,10 @@ double demand(const MachineConfig& machine, std::span<const double> shares, Limi
 
 void set_limits(MotorConfig& motor, const MachineConfig& machine, const MotorBlock* block,
                 std::span<const double> shares) {
-    const auto limit = [&](auto of_axis, auto of_block) {
-        return block != nullptr && block->*of_block ? *(block->*of_block) : demand(machine, shares, of_axis);
-    };
-    motor.start_velocity_mm_s = limit(&AxisConfig::start_velocity_mm_s, &MotorBlock::start_velocity_mm_s);
-    motor.max_velocity_mm_s = limit(&AxisConfig::max_velocity_mm_s, &MotorBlock::max_velocity_mm_s);
-    motor.max_accel_mm_s2 = limit(&AxisConfig::max_accel_mm_s2, &MotorBlock::max_accel_mm_s2);
-    motor.max_decel_mm_s2 = limit(&AxisConfig::max_decel_mm_s2, &MotorBlock::max_decel_mm_s2);
+    for (const MotorLimit& one : kMotorLimits) {
+        const bool has_own = block != nullptr && block->*one.of_block;
+        motor.*one.of_motor = has_own ? *(block->*one.of_block) : demand(machine, shares, one.of_axis);
+    }
     bool follows_steps = true;
     for (std::size_t i = 0; i < shares.size(); ++i) {
         const AxisConfig& axis = machine.axes[i];

@@ -105,10 +105,9 @@ private:
         if (has_own_motor()) {
             problems_.require_range("steps_per_mm", axis_.steps_per_mm, kMinStepsPerMm, kMaxStepsPerMm);
         }
-        speed("start_velocity_mm_s", axis_.start_velocity_mm_s);
-        speed("max_velocity_mm_s", axis_.max_velocity_mm_s);
-        accel("max_accel_mm_s2", axis_.max_accel_mm_s2);
-        accel("max_decel_mm_s2", axis_.max_decel_mm_s2);
+        for (const MotorLimit& limit : kMotorLimits) {
+            require_range(limit, std::string(limit.key), axis_.*limit.of_axis, problems_);
+        }
         place("position_min_mm", axis_.position_min_mm);
         place("position_max_mm", axis_.position_max_mm);
         speed("homing.search_velocity_mm_s", axis_.homing.search_velocity_mm_s);

@@ -6,6 +6,7 @@
 #include "core/kinematics/axis_steps.hpp"
 #include "core/kinematics/motors.hpp"
 #include "services/documents/machine_proto.hpp"
+#include "services/documents/number_field.hpp"
 #include "services/documents/proto_reader.hpp"
 #include "services/documents/rules/axis_ranges.hpp"
 
@@ -233,20 +234,22 @@ std::string method_name(proto::Method method) {
     return proto::Method_IsValid(method) ? proto::Method_Name(method) : std::to_string(method);
 }
 
+/// Nullopt if neither it nor the key that stands in for it is given.
+std::optional<double> limit_in(const google::protobuf::Message& message, const MotorLimit& limit) {
+    const auto given = number_in(message, limit.key);
+    return given || limit.otherwise.empty() ? given : number_in(message, limit.otherwise);
+}
+
 MotorBlock read_motor(const proto::Motor& message, const AxisConfig& axis, const std::string& place,
                       ProtoReader& reader) {
-    const auto given = [](bool is_given, double value) { return is_given ? std::optional(value) : std::nullopt; };
     MotorBlock motor;
     reader.require(message.has_name(), message.name(), motor.name, place + ".name");
     motor.host = message.has_host() ? message.host() : axis.host;
     motor.device = message.has_device() ? read_device(message.device(), place + ".device", reader) : axis.device;
     motor.steps_per_mm = message.has_steps_per_mm() ? message.steps_per_mm() : axis.steps_per_mm;
-    motor.start_velocity_mm_s = given(message.has_start_velocity_mm_s(), message.start_velocity_mm_s());
-    motor.max_velocity_mm_s = given(message.has_max_velocity_mm_s(), message.max_velocity_mm_s());
-    motor.max_accel_mm_s2 = given(message.has_max_accel_mm_s2(), message.max_accel_mm_s2());
-    motor.max_decel_mm_s2 = message.has_max_decel_mm_s2() ? message.max_decel_mm_s2() : motor.max_accel_mm_s2;
+    for (const MotorLimit& limit : kMotorLimits) { motor.*limit.of_block = limit_in(message, limit); }
     motor.switch_offset_mm = message.switch_offset_mm();
-    motor.max_following_error_mm = given(message.has_max_following_error_mm(), message.max_following_error_mm());
+    if (message.has_max_following_error_mm()) { motor.max_following_error_mm = message.max_following_error_mm(); }
     if (message.has_plant()) { motor.plant = read_plant(message.plant(), axis); }
     if (message.has_pins()) { motor.pins = read_pins(message.pins()); }
     motor.screw = read_screw(message.screw(), place + ".screw", reader);
@@ -321,12 +324,11 @@ AxisConfig read_axis(const proto::Axis& message, ProtoReader reader) {
     AxisConfig axis;
     reader.require(message.has_name(), message.name(), axis.name, "name");
     axis.steps_per_mm = message.steps_per_mm();
-    reader.require(message.has_start_velocity_mm_s(), message.start_velocity_mm_s(), axis.start_velocity_mm_s,
-                   "start_velocity_mm_s");
-    reader.require(message.has_max_velocity_mm_s(), message.max_velocity_mm_s(), axis.max_velocity_mm_s,
-                   "max_velocity_mm_s");
-    reader.require(message.has_max_accel_mm_s2(), message.max_accel_mm_s2(), axis.max_accel_mm_s2, "max_accel_mm_s2");
-    axis.max_decel_mm_s2 = message.has_max_decel_mm_s2() ? message.max_decel_mm_s2() : axis.max_accel_mm_s2;
+    for (const MotorLimit& limit : kMotorLimits) {
+        const auto given = limit_in(message, limit);
+        reader.require(given || !limit.otherwise.empty(), given.value_or(0), axis.*limit.of_axis,
+                       std::string(limit.key));
+    }
     reader.require(message.has_position_min_mm(), message.position_min_mm(), axis.position_min_mm, "position_min_mm");
     reader.require(message.has_position_max_mm(), message.position_max_mm(), axis.position_max_mm, "position_max_mm");
     if (!proto::Method_IsValid(message.method())) {  // protobuf accepts any number for an enumeration

@@ -1,6 +1,8 @@
 #include <array>
 
+#include "core/kinematics/motor_limits.hpp"
 #include "services/documents/machine_proto.hpp"
+#include "services/documents/number_field.hpp"
 
 namespace lockstep {
 namespace {
@@ -144,10 +146,9 @@ proto::Method method_to_proto(StepMethod method) { return static_cast<proto::Met
 void write_motor(const MotorBlock& motor, proto::Motor& message) {
     message.set_name(motor.name);
     if (motor.steps_per_mm) { message.set_steps_per_mm(*motor.steps_per_mm); }
-    if (motor.start_velocity_mm_s) { message.set_start_velocity_mm_s(*motor.start_velocity_mm_s); }
-    if (motor.max_velocity_mm_s) { message.set_max_velocity_mm_s(*motor.max_velocity_mm_s); }
-    if (motor.max_accel_mm_s2) { message.set_max_accel_mm_s2(*motor.max_accel_mm_s2); }
-    if (motor.max_decel_mm_s2) { message.set_max_decel_mm_s2(*motor.max_decel_mm_s2); }
+    for (const MotorLimit& limit : kMotorLimits) {
+        if (const auto value = motor.*limit.of_block) { set_number(message, limit.key, *value); }
+    }
     if (!motor.host.empty()) { message.set_host(motor.host); }
     message.set_device(motor.device.text());
     message.set_switch_offset_mm(motor.switch_offset_mm);
@@ -225,10 +226,7 @@ void write_input(const InputConfig& input, proto::Input& message) {
 void write_axis(const AxisConfig& axis, proto::Axis& message) {
     message.set_name(axis.name);
     if (axis.motors.empty()) { message.set_steps_per_mm(axis.steps_per_mm); }  // otherwise each motor has its own
-    message.set_start_velocity_mm_s(axis.start_velocity_mm_s);
-    message.set_max_velocity_mm_s(axis.max_velocity_mm_s);
-    message.set_max_accel_mm_s2(axis.max_accel_mm_s2);
-    message.set_max_decel_mm_s2(axis.max_decel_mm_s2);
+    for (const MotorLimit& limit : kMotorLimits) { set_number(message, limit.key, axis.*limit.of_axis); }
     message.set_position_min_mm(axis.position_min_mm);
     message.set_position_max_mm(axis.position_max_mm);
     message.set_method(method_to_proto(axis.method));

@@ -64,10 +64,10 @@ private:
         problems_.require(motor.host.empty() || is_host_name(motor.host), at + "host",
                           "host is \"" + motor.host + "\"; it must be the name of a host: letters, digits, - and .");
         problems_.require_range(at + "steps_per_mm", motor.steps_per_mm.value_or(0), kMinStepsPerMm, kMaxStepsPerMm);
-        speed(at + "start_velocity_mm_s", motor.start_velocity_mm_s);
-        speed(at + "max_velocity_mm_s", motor.max_velocity_mm_s);
-        accel(at + "max_accel_mm_s2", motor.max_accel_mm_s2);
-        accel(at + "max_decel_mm_s2", motor.max_decel_mm_s2);
+        for (const MotorLimit& limit : kMotorLimits) {
+            const auto own = motor.*limit.of_block;
+            if (own) { require_range(limit, at + std::string(limit.key), *own, problems_); }
+        }
         const bool has_own = motor.max_following_error_mm.has_value();
         check_following_error(has_own ? at + "max_following_error_mm" : "max_following_error_mm",
                               has_own ? motor.max_following_error_mm : axis_.max_following_error_mm,
@@ -80,13 +80,6 @@ private:
             fmt::format("switch_offset_mm is {}; it must be from {} to {}{}", number_text(motor.switch_offset_mm),
                         number_text(-most), number_text(most), is_carriage ? "" : ", the axis's max_skew_mm"));
     }
-    void speed(const std::string& key, std::optional<double> value) {
-        if (value) { problems_.require_range(key, *value, kMinSpeed_mm_s, kMaxSpeed_mm_s); }
-    }
-    void accel(const std::string& key, std::optional<double> value) {
-        if (value) { problems_.require_range(key, *value, kMinAccel_mm_s2, kMaxAccel_mm_s2); }
-    }
-
     const MachineConfig& machine_;
     const AxisConfig& axis_;
     ProblemList problems_;
