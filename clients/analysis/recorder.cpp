@@ -121,10 +121,8 @@ void Recorder::on_channel(const channel_event_t& message) {
 
 void Recorder::on_damage(LogPlace place, const std::string& what) { note_damage(analysis_.damages, place, what); }
 
-/// Axes may be jogged in the pause of a job, and return in it. A homing by touch consists of such jobs. Returns the
-/// number of that job's log.
+/// Returns the number of the log of the job that waits for a job that may be in its pause.
 std::optional<std::size_t> Recorder::paused_by(const JobLog& begun) const {
-    if (begun.kind != "jog" && begun.kind != "return" && begun.kind != "home") { return std::nullopt; }
     for (std::size_t i = analysis_.jobs.size(); i-- > 0;) {
         const JobLog& job = analysis_.jobs[i];
         const bool waits = job.coordinator == begun.coordinator && job.begun_us && !job.ended_us && &job != &begun;
@@ -148,7 +146,7 @@ JobLog* Recorder::job(const job_t& message) {
 void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace place) {
     if (record.begun_us) { return; }  // a repeat
     record.begun_us = message.utime;
-    record.is_in_pause_of = paused_by(record);
+    if (message.may_be_in_pause()) { record.is_in_pause_of = paused_by(record); }
     read_machine(message, place);
     const auto program = read_program(message, place);
     if (program && !record.is_in_pause_of) { program_events_.begin(message, *program); }

@@ -36,15 +36,14 @@ LogCheck::Axis::Axis(const std::string& name, Findings& findings, JobCheck* jobs
           [this](const Run& other) { check.runs_contradict(other); }) {}
 
 LogCheck::Machine::Machine(Findings& findings)
-    : jobs(findings),
+    : jobs(findings,
+           [this](const std::string& axis, OutputCheck::Planned planned) {
+               const auto found = axes.find(axis);
+               if (found != axes.end()) { found->second->outputs.take(std::move(planned)); }
+           }),
       records([this](const JobRecord& record,
                      bool is_behind_gap) { std::visit([&](const auto& of) { jobs.take(of, is_behind_gap); }, record); },
-              [this](const JobRecord& other) { jobs.contradict(other); }) {
-    jobs.pass_outputs([this](const std::string& axis, OutputCheck::Planned planned) {
-        const auto found = axes.find(axis);
-        if (found != axes.end()) { found->second->outputs.take(std::move(planned)); }
-    });
-}
+              [this](const JobRecord& other) { jobs.contradict(other); }) {}
 
 void LogCheck::take(const analysis::StepMessage& message, analysis::LogPlace place) {
     Axis* to = axis(message.machine, message.axis, place);

@@ -34,6 +34,7 @@ public:
     EpochCheck(const MachineConfig& machine, EpochReplay replay, const MotorPositions& at);
 
     Epoch epoch() const { return replay_.epoch(); }
+    const MachineConfig& machine() const { return machine_; }
     EpochReplay& replay() { return replay_; }
     const EpochReplay& replay() const { return replay_; }
 

@@ -13,12 +13,7 @@ namespace lockstep::verification {
 
 void JobCheck::take(const RecordedJob& record, bool is_behind_gap) {
     questions_.take(record, is_behind_gap);
-    if (begins_late_ && !first_job_ && record.event != "begun") { return; }  // of a job begun before the log
-    if (record.event == "begun" && !first_job_) { first_job_ = record.job; }
-    if (record.event == "epoch" && !first_epoch_) {
-        first_epoch_ = static_cast<Epoch>(record.epoch);
-        leave_out_before_first_job();
-    }
+    if (!first_job_.take(record)) { return; }
     records_.add({record, is_behind_gap, false});
     place_waiting();
 }
@@ -31,9 +26,8 @@ void JobCheck::take(const program_event_t& event, bool is_behind_gap) {
         gap.job = event.job;
         records_.add({gap, true, true});
     }
-    if (begins_late_ && !first_job_ && event.job != newest_event_job_) { events_.forget_all(); }
-    newest_event_job_ = event.job;
-    events_.take(event);
+    if (first_job_.ends_earlier_job(event)) { events_.recorded().forget_all(); }
+    events_.recorded().take(event);
 }
 
 void JobCheck::contradict(const JobRecord& other) {
@@ -84,17 +78,18 @@ void JobCheck::take(const std::string& axis, const Run& run, bool is_behind_gap)
 /// Compares the run, or keeps it until its epoch is known.
 void JobCheck::wait(AxisRun of) {
     if (!findings_.going()) { return; }
-    if (is_before_first_job(of.run)) { return leave_out(1); }
+    if (first_job_.is_behind(of.run.epoch)) { return first_job_.leave_out(1, findings_); }
     if (place(of)) { return; }
     if (waiting_.size() == kMaxWaiting && !records_.has_job()) {  // each job is recorded before its runs
-        begins_late_ = true;
+        first_job_.begin_late();
         leave_out_before_first_job();
     }
     if (waiting_.size() == kMaxWaiting) {
         ask_epoch(waiting_.front(), "its runs are of an unknown epoch");
         const Epoch unknown = waiting_.front().run.epoch;
-        progress_.note_lost(unknown);
-        leave_out(std::erase_if(waiting_, [&](const AxisRun& other) { return other.run.epoch == unknown; }));
+        epochs_.lose(unknown);
+        const auto is_out = [&](const AxisRun& other) { return other.run.epoch == unknown; };
+        first_job_.leave_out(std::erase_if(waiting_, is_out), findings_);
     }
     waiting_.push_back(std::move(of));
 }
@@ -111,7 +106,7 @@ void JobCheck::ask_epoch(const AxisRun& of, const std::string& why) {
 }
 
 bool JobCheck::is_left_out(const AxisRun& of) const {
-    return progress_.is_lost(of.run.epoch) || questions_.is_silent_in(of.axis, of.run.epoch);
+    return epochs_.is_lost(of.run.epoch) || questions_.is_silent_in(of.axis, of.run.epoch);
 }
 
 /// Handles the records up to the one that begins the run's epoch. Returns false if there is none yet.
@@ -123,64 +118,42 @@ bool JobCheck::begin_epoch_of(const Run& run) {
 
 /// Returns false if the run's epoch is not known yet.
 bool JobCheck::place(const AxisRun& of) {
-    if (!progress_.is_in_epoch(of.run.epoch) && !is_left_out(of) && !begin_epoch_of(of.run)) { return false; }
+    if (!progress_.epoch().is(of.run.epoch) && !is_left_out(of) && !begin_epoch_of(of.run)) { return false; }
     handle_turns();
     if (!findings_.going()) { return true; }
-    is_left_out(of) ? leave_out(1) : progress_.take(of);
+    is_left_out(of) ? first_job_.leave_out(1, findings_) : progress_.take(of);
     return true;
 }
 
 std::vector<Course> JobCheck::planned(const std::string& axis, Tick tick) {
-    if (progress_.has_epoch()) { handle_turns(); }
-    return progress_.planned(axis, tick);
+    if (progress_.epoch()) { handle_turns(); }
+    return progress_.epoch().planned(axis, tick);
 }
 
 // ---- The beginning and the end of the log --------------------------------------------------------------------------
 
 void JobCheck::begins_late() {
-    begins_late_ = true;
-    events_.begins_late();
-}
-
-bool JobCheck::is_before_first_job(const Run& run) const {
-    return begins_late_ && first_epoch_ && run.epoch < *first_epoch_;
-}
-
-/// Counts them as runs without a plan.
-void JobCheck::leave_out(std::size_t runs) {
-    left_out_ += runs;
-    findings_.local_runs += static_cast<std::int64_t>(runs);
+    first_job_.begin_late();
+    events_.devices().lose();
 }
 
 void JobCheck::leave_out_before_first_job() {
-    if (!begins_late_) { return; }
-    const auto is_out = [&](const AxisRun& of) { return is_before_first_job(of.run) || !first_epoch_; };
-    leave_out(std::erase_if(waiting_, is_out));
+    const auto is_out = [&](const AxisRun& of) { return first_job_.is_never_known(of.run.epoch); };
+    first_job_.leave_out(std::erase_if(waiting_, is_out), findings_);
 }
 
 void JobCheck::finish(LogEnd end) {
     leave_out_before_first_job();
-    if (begins_late_) { note_beginning(); }
+    first_job_.note(findings_);
     while (!records_.empty() && findings_.going()) { handle_first(); }
     end.lacks_records = lacks_records_ || end.lacks_records;
     if (!waiting_.empty()) { ask_epoch(waiting_.front(), "the log has no record of its epoch, which it ran"); }
     questions_.finish(end);
-    if (!progress_.has_job() && end.at_rest && !begins_late_ && !end.lacks_records) { events_.finish(); }
+    if (!progress_.has_job() && end.at_rest && !first_job_.log_begins_late() && !end.lacks_records) {
+        events_.finish();
+    }
     if (!progress_.has_job() || !findings_.going()) { return; }
     end.at_rest ? progress_.leave_at_rest(end) : progress_.leave_in_motion();
-}
-
-void JobCheck::note_beginning() {
-    const std::string late = "the log begins later than the record";
-    if (first_job_) {
-        findings_.notes.push_back(
-            fmt::format("{}: the result applies from job {} on; earlier runs are compared only with their own records",
-                        late, *first_job_));
-    } else if (left_out_ > 0) {
-        findings_.add_unknown(late + ", and no job begins in it: runs are compared only with their own records");
-    } else {
-        findings_.notes.push_back(late + ", and no job begins in it");
-    }
 }
 
 }  // namespace lockstep::verification

@@ -8,14 +8,16 @@
 
 #include <cstdint>
 #include <deque>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "clients/verification/events/event_check.hpp"
 #include "clients/verification/findings.hpp"
-#include "clients/verification/jobs/event_check.hpp"
+#include "clients/verification/jobs/first_job.hpp"
 #include "clients/verification/jobs/job_progress.hpp"
 #include "clients/verification/jobs/job_stream.hpp"
+#include "clients/verification/jobs/newest_epochs.hpp"
 #include "clients/verification/jobs/open_questions.hpp"
 #include "clients/verification/jobs/record_order.hpp"
 #include "clients/verification/steps/left_steps.hpp"
@@ -32,7 +34,10 @@ public:
     /// The maximum number of runs that wait for the record of their epoch, which is written before they begin.
     static constexpr std::size_t kMaxWaiting = 4096;
 
-    explicit JobCheck(Findings& findings) : findings_(findings), events_(findings) {}
+    explicit JobCheck(Findings& findings, PlannedOutputs::OnOutputs on_outputs = {})
+        : findings_(findings),
+          events_(findings),
+          progress_(findings, events_, questions_, epochs_, std::move(on_outputs)) {}
 
     /// Records come in the order of their numbers. `is_behind_gap`: records of the coordinator before it are missing.
     void take(const RecordedJob& record, bool is_behind_gap);
@@ -45,14 +50,12 @@ public:
     /// of their numbers. `is_behind_gap`: runs before it are missing from the log.
     void take(const std::string& axis, const Run& run, bool is_behind_gap);
 
-    /// As JobProgress.
-    void pass_outputs(JobProgress::OnOutputs on_outputs) { progress_.pass_outputs(std::move(on_outputs)); }
-
     /// Call once, at the end of the log.
     void finish(LogEnd end);
 
     /// As JobProgress.
     std::string commanded(const Run& run, Tick tick) const { return progress_.commanded(run, tick); }
+    /// As EpochProgress.
     std::vector<Course> planned(const std::string& axis, Tick tick);
 
 private:
@@ -66,24 +69,17 @@ private:
     void wait(AxisRun of);
     void place_waiting();
     void ask_epoch(const AxisRun& of, const std::string& why);
-    bool is_before_first_job(const Run& run) const;
     void leave_out_before_first_job();
-    void leave_out(std::size_t runs);
-    void note_beginning();
 
     Findings& findings_;
+    FirstJob first_job_;
     EventCheck events_;
     OpenQuestions questions_{findings_};
-    JobProgress progress_{findings_, events_, questions_};
+    NewestEpochs epochs_;
+    JobProgress progress_;
     RecordOrder records_;          // handled only when a run needs them: late runs of an ended epoch may come
     std::deque<AxisRun> waiting_;  // for the record of their epoch
     bool lacks_records_ = false;   // of jobs
-    // Where the log begins:
-    bool begins_late_ = false;
-    std::size_t left_out_ = 0;  // runs of jobs that began before the log
-    std::int64_t newest_event_job_ = 0;
-    std::optional<std::int64_t> first_job_;  // the first with its beginning in the log
-    std::optional<Epoch> first_epoch_;       // the first of such a job
 };
 
 }  // namespace lockstep::verification

@@ -37,7 +37,7 @@ void JobProgress::take(const OrderedRecord& record) {
     if (record.event == "override") { return take_overrides(record); }
     if (record.event == "probe") { return take_probe(record); }
     const bool goes_on = is_of_job(record) && record.event != "begun" && record.outcome != "failed";
-    close_epoch(goes_on, lacks_events);
+    if (job_) { epoch_.close(*job_, goes_on, lacks_events); }
     if (record.event == "begun") { return begin(record); }
     if (record.event == "epoch") { return begin_epoch(record); }
     end(record);
@@ -48,50 +48,30 @@ void JobProgress::lose(const OrderedRecord& record) {
         fmt::format("messages of jobs are missing before {} of {}; from there on its runs are compared "
                     "only with their own records",
                     record.is_of_event ? "an event" : "\"" + record.event + "\"", number_of(record)));
-    lose_epoch();
+    epoch_.lose();
     job_.reset();
     paused_.reset();
     if (record.event == "begun") { return; }
-    job_ = Job{.coordinator = record.coordinator,
-               .number = record.job,
-               .label = number_of(record),
-               .replay = {},
-               .is_lost = true,
-               .broken = {},
-               .broken_axis = {}};
+    job_ = CheckedJob{.coordinator = record.coordinator,
+                      .number = record.job,
+                      .label = number_of(record),
+                      .replay = {},
+                      .is_lost = true,
+                      .broken = {},
+                      .broken_axis = {}};
     events_.leave();
-}
-
-/// The further runs of the epoch in progress are not compared with its plan.
-void JobProgress::lose_epoch() {
-    if (!epoch_) { return; }
-    note_lost(epoch_->epoch());
-    epoch_.reset();
-}
-
-/// The runs of this epoch are left out.
-void JobProgress::note_lost(Epoch epoch) {
-    lost_epochs_.push_back(epoch);
-    if (lost_epochs_.size() > kLabelsKept) { lost_epochs_.pop_front(); }
 }
 
 /// A coordinator that records a job begun by another has continued it after a takeover.
 void JobProgress::note_owner(const RecordedJob& record) {
     if (!job_ || job_->number != record.job || job_->coordinator == record.coordinator) { return; }
     job_->coordinator = record.coordinator;
-    events_.continue_by(record.coordinator);
+    events_.recorded().continue_by(record.coordinator);
     findings_.notes.push_back(job_->label + ": another coordinator has taken over and continued it");
 }
 
-/// Axes may be jogged in the pause of a job, and return in it. A homing by touch consists of moves with programs.
-bool JobProgress::begins_in_pause(const OrderedRecord& record) const {
-    const bool is_of_homing = record.kind == "home" && record.has_program();
-    const bool may_be = record.kind == "jog" || record.kind == "return" || is_of_homing;
-    return may_be && job_ && job_->coordinator == record.coordinator && !job_->is_in_pause;
-}
-
 void JobProgress::begin(const OrderedRecord& record) {
-    const bool is_in_pause = begins_in_pause(record);
+    const bool is_in_pause = record.may_be_in_pause() && is_run_by(record.coordinator) && !job_->is_in_pause;
     if (is_in_pause) { paused_ = std::exchange(job_, std::nullopt); }
     if (job_ && job_->coordinator == record.coordinator) {
         return differ(fmt::format("{}: the log has no end of it, though {} begins", job_->label, number_of(record)));
@@ -99,8 +79,8 @@ void JobProgress::begin(const OrderedRecord& record) {
     if (job_) {
         findings_.notes.push_back(job_->label + " has no end: another coordinator began " + number_of(record));
     }
-    job_ =
-        Job{.coordinator = record.coordinator, .number = record.job, .label = number_of(record) + ", " + record.kind};
+    job_ = CheckedJob{
+        .coordinator = record.coordinator, .number = record.job, .label = number_of(record) + ", " + record.kind};
     job_->is_in_pause = is_in_pause;
     if (!is_in_pause) {
         paused_.reset();
@@ -129,15 +109,11 @@ void JobProgress::begin(const OrderedRecord& record) {
     if (record.is_behind_gap) { events_.leave(); }  // events at rest may come before the job's begin
 }
 
-bool JobProgress::is_of_job(const RecordedJob& record) const {
-    return job_ && job_->number == record.job && job_->coordinator == record.coordinator;
-}
-
 /// The runs of an epoch are not compared, because the plan of its job is not known.
 void JobProgress::leave_job_plan(Epoch epoch) {
     job_->is_lost = true;
     events_.leave();
-    note_lost(epoch);
+    epochs_.lose(epoch);
 }
 
 void JobProgress::begin_epoch(const RecordedJob& record) {
@@ -150,7 +126,6 @@ void JobProgress::begin_epoch(const RecordedJob& record) {
         return differ("the log has an epoch of " + number_of(record) + ", but not the beginning of that job");
     }
     if (!job_->broken.empty()) { return differ(job_->label + " continues, though " + job_->broken, job_->broken_axis); }
-    const Overrides overrides{record.feed_percent, record.rapid_percent};
     auto start = job_->replay->next(record.start_count);
     if (!start) { return differ(job_->label + " continues, though its program is done"); }
     const PathPlace place = place_in(record);
@@ -161,45 +136,17 @@ void JobProgress::begin_epoch(const RecordedJob& record) {
         questions_.ask_motion({text + ", as no run before is in the log", {}, {}, {}, job_->label});
         return leave_job_plan(epoch);
     }
-    if (!job_->is_in_pause) {
-        events_.check_rest(start->place.block, start->place.block);
-        events_.begin_epoch(epoch, record.coordinator);
-    }
-    const MotorPositions at = start->at;
-    job_->begun_at = at;
-    job_->plays = record.start_count;
-    const MachineConfig& machine = job_->replay->machine();
-    ProgramDevices devices = events_.devices();
-    if (job_->is_in_pause || record.kind == name_of(JobKind::Jog)) { devices.pulses = {}; }
-    epoch_.emplace(machine, EpochReplay(machine, epoch, std::move(*start), overrides, {record.start_tick}, devices),
-                   at);
-    knows_outputs_ = events_.knows_devices();
-    pulses_.clear();
-    for (const OutputConfig& output : machine.outputs) {
-        if (output.makes_pulses()) { pulses_.try_emplace(output.motor); }
-    }
-    labels_.emplace_back(epoch, job_->label);
-    if (labels_.size() > kLabelsKept) { labels_.pop_front(); }
+    epoch_.begin(*job_, std::move(*start), record);
 }
 
 void JobProgress::take_overrides(const RecordedJob& record) {
-    if (!epoch_ || epoch_->epoch() != static_cast<Epoch>(record.epoch)) { return; }  // no axis ran a frame of it
+    if (!epoch_.is(static_cast<Epoch>(record.epoch))) { return; }  // no axis ran a frame of it
     if (!epoch_->replay().set_overrides(static_cast<FrameNumber>(record.behind_frame),
                                         {record.feed_percent, record.rapid_percent})) {
         differ(fmt::format(
             "{}: its overrides were changed after frame {}, but frames after that had been run when it was recorded",
             job_->label, record.behind_frame));
     }
-}
-
-MotorPositions JobProgress::Job::slides_of(MotorPositions motors) const {
-    for (std::size_t m = 0; m < plays.size() && m < begun_at.size(); ++m) {
-        Play play(replay->kinematics().motors()[m].backlash);
-        play.set(plays[m]);
-        play.follow(motors[m].count() - begun_at[m].count());
-        motors[m] = motors[m] - Displacement::steps(play.steps());
-    }
-    return motors;
 }
 
 /// Compares the recorded places of a touch with those of the frames that were run.
@@ -225,7 +172,7 @@ void JobProgress::end(const RecordedJob& record) {
     if (!is_of_job(record)) {
         return differ("the log has the end of " + number_of(record) + ", but not its beginning");
     }
-    Job job = *std::exchange(job_, std::exchange(paused_, std::nullopt));
+    CheckedJob job = *std::exchange(job_, std::exchange(paused_, std::nullopt));
     if (job.is_lost) { return; }
     if (!job.replay) { return job.is_in_pause ? void() : events_.end(outcome_of(record)); }
     if (job.is_probed) { job.replay->end_probed(); }
@@ -265,96 +212,14 @@ void JobProgress::take(const AxisRun& of) {
     }
     const auto found = epoch_->compare(axis, run, is_behind_gap);
     if (!found) {
-        ++findings_.runs;
-        return note_outputs(of, axis);
+        return epoch_.take_equal(of, axis, [&] { return commanded(run, run.start); });
     }
     if (job_->replay->program()->failure()) { return differ("", name, &run); }
     questions_.ask_plan({findings_.label_of(name) + ": " + name_of(run) + found->text, name, found->tick_expected,
                          found->tick_seen, commanded(run, found->tick_expected.value_or(run.start))},
                         run);
     job_->is_lost = true;
-    lose_epoch();
-}
-
-/// Those of a run that was cut are not compared: its device made them safe.
-void JobProgress::note_outputs(const AxisRun& of, std::size_t axis) {
-    const Run& run = of.run;
-    const Frame* const frame = epoch_->replay().frame(run.frame);
-    const OutputTrack* const track = frame != nullptr ? frame->outputs_of(axis) : nullptr;
-    if (track == nullptr || !on_outputs_ || !knows_outputs_ || run.cut) { return; }
-    OutputCheck::Planned planned{.incarnation = run.incarnation,
-                                 .begin = run.start,
-                                 .end = run.start + run.ticks(),
-                                 .changes = {},
-                                 .ticks = run.tail ? total_ticks(frame->axes[axis].tail) : frame->ticks,
-                                 .is_retimed = !run.commanded_ticks.empty(),
-                                 .clock_error = run.clock_error,
-                                 .commanded = commanded(run, run.start),
-                                 .pulses = {}};
-    const auto take = [&](const auto& changes) { planned.changes.assign(changes.begin(), changes.end()); };
-    run.tail ? take(track->tail) : take(track->body);
-    if (const auto pulses = pulses_.find(of.axis); pulses != pulses_.end()) {
-        if (of.is_behind_gap) { pulses->second.lose(); }
-        std::vector<OutputChange> made = planned.changes;
-        for (OutputChange& change : made) { change.at = planned.tick_of(change) - planned.begin; }
-        planned.pulses = pulses->second.events_of({run, std::move(made), run.tail || frame->last});
-    }
-    on_outputs_(of.axis, std::move(planned));
-}
-
-/// Compares the epoch's end, and takes the state of the job after it.
-void JobProgress::close_epoch(bool goes_on, bool lacks_events) {
-    if (!epoch_) { return; }
-    plan_next(epoch_->replay());
-    job_->ran = epoch_->ran();
-    const std::size_t axes = motor_count(job_->replay->machine());
-    std::optional<Shortfall> found = epoch_->shortfall();
-    for (std::size_t i = 0; goes_on && i < axes && found && suspect(*found); ++i) { found = epoch_->shortfall(); }
-    found ? break_off(*found) : check_epoch(lacks_events);
-    epoch_.reset();
-}
-
-/// If an axis has nothing more in the log, its runs may be missing. The epoch is then taken for complete, if others ran
-/// further; the axis's next run shows whether runs are missing.
-bool JobProgress::suspect(const Shortfall& shortfall) {
-    const std::string& axis = motor_name(job_->replay->machine(), shortfall.axis);
-    if (shortfall.kind != Shortfall::Kind::Silent) { return false; }
-    const FrameNumber most = epoch_->ran();
-    if (!epoch_->assume_complete(shortfall.axis)) { return false; }
-    questions_.ask_silence(axis, epoch_->epoch(),
-                           {.text = fmt::format("{} {}, though {} went on to frame {}", findings_.label_of(axis),
-                                                shortfall.text, job_->label, most),
-                            .axis = axis,
-                            .tick_expected = {},
-                            .tick_seen = {},
-                            .commanded = job_->label});
-    return true;
-}
-
-/// Takes the state of the job after an epoch that all axes ran to its end.
-void JobProgress::check_epoch(bool lacks_events) {
-    const EpochEnd end = epoch_->end();
-    const bool is_whole = end.kind == EpochEnd::Kind::Complete;
-    const std::uint32_t rests_before = is_whole ? epoch_->replay().source()->end().block : end.place.block;
-    job_->replay->ended(end, epoch_->replay().source());
-    if (job_->is_in_pause) { return; }
-    events_.check_motion(epoch_->replay().take_events(end.ran), lacks_events);
-    events_.check_rest(lacks_events ? 0 : rests_before, job_->replay->moves_from());
-    if (end.ran > 0) { note_pulses(); }
-}
-
-/// How many are left decides what the next epoch begins with.
-void JobProgress::note_pulses() {
-    for (const OutputConfig& output : job_->replay->machine().outputs) {
-        if (!output.makes_pulses() || !is_active(output, events_.devices())) { continue; }
-        const auto& left = pulses_.at(output.motor).left();
-        left ? events_.note_pulses(*left) : events_.lose_devices();
-    }
-}
-
-void JobProgress::break_off(const Shortfall& shortfall) {
-    job_->broken_axis = motor_name(job_->replay->machine(), shortfall.axis);
-    job_->broken = findings_.label_of(job_->broken_axis) + " " + shortfall.text;
+    epoch_.lose();
 }
 
 // ---- The end of the log ------------------------------------------------------------------------------------------
@@ -373,11 +238,11 @@ void JobProgress::leave_at_rest(const LogEnd& end) {
             const std::string& axis = motor_name(job_->replay->machine(), i);
             const auto found = epoch_->shortfall_of(i);
             if (!found || found->kind == Shortfall::Kind::Cut || end.has_ended(axis)) { continue; }
-            break_off(*found);
+            job_->break_off(*found, findings_);
             const std::string text = job_->label + " has no end in the log, and " + job_->broken;
             return end.lacks_runs(axis) ? findings_.add_missing(text) : differ(text, axis);
         }
-        close_epoch(false, true);
+        epoch_.close(*job_, false, true);
     }
     if (end.lacks_records) { return findings_.add_missing("the end of " + job_->label + " is not in the log"); }
     findings_.notes.push_back(job_->label + " has no end in the log" +
@@ -385,30 +250,11 @@ void JobProgress::leave_at_rest(const LogEnd& end) {
                               (job_->replay ? "; what was run of it is as planned" : ""));
 }
 
-// ---- For the comparison of steps ---------------------------------------------------------------------------------
-
-/// Plans what each axis may run after its newest run.
-void JobProgress::plan_next(EpochReplay replay) {
-    const std::vector<std::string> motors = motor_names(job_->replay->machine());
-    for (std::size_t i = 0; i < motors.size(); ++i) { planned_[motors[i]] = epoch_->courses_of(i, replay); }
-}
-
-/// A copy of the replay makes the frames ahead, because the epoch's own frames may still be planned differently.
-std::vector<Course> JobProgress::planned(const std::string& axis, Tick tick) {
-    if (epoch_) { plan_next(epoch_->replay()); }
-    const auto found = planned_.find(axis);
-    if (found == planned_.end() || found->second.empty()) { return {}; }
-    const Run& last = found->second.back().back();
-    return tick < last.start + last.ticks() ? found->second : std::vector<Course>{};
-}
-
 std::string JobProgress::commanded(const Run& run, Tick tick) const {
     if (run.epoch == 0) { return name_of(run); }
-    std::string text;
-    for (const auto& [epoch, label] : labels_) {
-        if (epoch == run.epoch) { text = label + ", "; }
-    }
-    if (epoch_ && epoch_->epoch() == run.epoch) {
+    std::string text = epochs_.label_of(run.epoch);
+    if (!text.empty()) { text += ", "; }
+    if (epoch_.is(run.epoch)) {
         const std::int32_t line = job_->replay->line_of(epoch_->replay().block_at(tick + run.ahead));
         if (line != 0) { text += fmt::format("line {}, ", line); }
     }
