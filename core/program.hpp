@@ -1,11 +1,13 @@
 // A motion program: made from a G-code file, planned by a coordinator. Everything modal is resolved.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <expected>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -77,33 +79,62 @@ struct Probe {
     bool operator==(const Probe&) const = default;
 };
 
-inline constexpr std::int32_t kMaxEventIndex = 1'000'000;
 inline constexpr std::uint32_t kMaxEventsTogether = 100;  // between two moves, dwells or pauses
+
+/// The words of programs for devices other than axes, one row for each kind: its name in records, its words in a
+/// program, and its text for people, with {index} and {value} where these stand. The numbers of kinds are in files and
+/// messages: a new kind is the last, here and in idl/proto/program.proto.
+// clang-format off
+#define LOCKSTEP_PROGRAM_EVENTS(X) \
+    /* value: revolutions per minute */ \
+    X(SpindleStop,    "spindle-stop",    "M5",                  "spindle stop") \
+    X(SpindleForward, "spindle-forward", "M3 S{value}",         "spindle forward, {value} rev/min") \
+    X(SpindleReverse, "spindle-reverse", "M4 S{value}",         "spindle reverse, {value} rev/min") \
+    X(SpindleSpeed,   "spindle-speed",   "S{value}",            "spindle speed, {value} rev/min") \
+    X(CoolantOff,     "coolant-off",     "M9",                  "coolant off") \
+    X(MistOn,         "mist-on",         "M7",                  "mist on") \
+    X(FloodOn,        "flood-on",        "M8",                  "flood on") \
+    X(OutputOn,       "output-on",       "M62 P{index}",        "output {index} on") \
+    X(OutputOff,      "output-off",      "M63 P{index}",        "output {index} off") \
+    X(AnalogOutput,   "analog-output",   "M67 E{index} Q{value}", "analog output {index} to {value}") \
+    /* index: the tool in the spindle, 0: none */ \
+    X(Tool,           "tool",            "T{index}",            "tool {index} in the spindle") \
+    /* index: the output, value: from each place to the next, mm; PulsePlaces follows */ \
+    X(PulseSpacing,   "pulse-spacing",   "M69 P{index} R{value}", "pulses of output {index} every {value} mm") \
+    /* index: how many, 0: no more; value: the first place, mm */ \
+    X(PulsePlaces,    "pulse-places",    "M69 Q{value} L{index}", "{index} pulses from {value} mm on")
+// clang-format on
+
+inline constexpr std::int32_t kMaxEventIndex = 1'000'000;
 
 /// A word of a program for a device other than an axis. The coordinator publishes it when the motion reaches its place.
 struct ProgramEvent {
     enum class Kind : std::uint8_t {
-        SpindleStop,     // M5
-        SpindleForward,  // M3; value: revolutions per minute
-        SpindleReverse,  // M4; value: revolutions per minute
-        SpindleSpeed,    // S while the spindle turns; value: revolutions per minute
-        CoolantOff,      // M9
-        MistOn,          // M7
-        FloodOn,         // M8
-        OutputOn,        // M62 M64; index
-        OutputOff,       // M63 M65; index
-        AnalogOutput,    // M67 M68; index, value
-        Tool,            // M6 M61; index: the tool in the spindle, 0: none
-        PulseSpacing,    // M69; index: the output, value: from each place to the next, mm. PulsePlaces follows
-        PulsePlaces,     // M69; index: how many, 0: no more; value: the first place, mm
+#define X(kind, name, words, text) kind,
+        LOCKSTEP_PROGRAM_EVENTS(X)
+#undef X
     };
-    static constexpr std::size_t kKinds = 13;
 
     Kind kind = Kind::SpindleStop;
     std::int32_t index = 0;
     double value = 0;
     bool operator==(const ProgramEvent&) const = default;
 };
+
+struct EventWords {
+    std::string_view name;
+    std::string_view words;
+    std::string_view text;
+};
+
+inline constexpr std::array kEventWords{
+#define X(kind, name, words, text) EventWords{name, words, text},
+    LOCKSTEP_PROGRAM_EVENTS(X)
+#undef X
+};
+
+/// As records name it: "output-on".
+constexpr std::string_view name_of(ProgramEvent::Kind kind) { return kEventWords[static_cast<std::size_t>(kind)].name; }
 
 struct Block {
     std::optional<std::int32_t> line;  // in the G-code file, from 1

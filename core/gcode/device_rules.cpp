@@ -201,9 +201,7 @@ void ProgramBuilder::event(const Event& event) {
         case EventKind::Mist: return coolant(Kind::MistOn);
         case EventKind::Flood: return coolant(Kind::FloodOn);
         case EventKind::CoolantOff: coolant_flows_ = false; return append(ProgramEvent{.kind = Kind::CoolantOff});
-        case EventKind::OutputOn: return output(Kind::OutputOn);
-        case EventKind::OutputOff: return output(Kind::OutputOff);
-        case EventKind::AnalogOutput: return output(Kind::AnalogOutput);
+        case EventKind::Output: return output(event.switched);
         case EventKind::InputWait: return wait_for_input(event);
         case EventKind::Pulses: return pulses(event);
         case EventKind::SpeedOverride:  // also from M49, which has an effect on the feed

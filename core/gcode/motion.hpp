@@ -14,6 +14,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/program.hpp"
+
 namespace lockstep::gcode {
 
 inline constexpr std::string_view kAxisLetters = "XYZABCUVW";
@@ -94,9 +96,7 @@ enum class EventKind : std::uint8_t {
     Mist,            // M7
     Flood,           // M8
     CoolantOff,      // M9
-    OutputOn,        // M62 M64: index
-    OutputOff,       // M63 M65: index
-    AnalogOutput,    // M67 M68: index, value
+    Output,          // M62 to M65, M67, M68: switched, index, value
     InputWait,       // M66: index, value: seconds
     Pulses,          // M69: index, value: the first place, spacing, mode: how many
     FeedOverride,    // M48 to M51: value: 1 on, 0 off
@@ -114,9 +114,10 @@ struct Event {
     int index = 0;
     double value = 0;
     std::string text;
-    int mode = 0;            // InputWait and Pulses: L
-    bool is_analog = false;  // InputWait: E
-    double spacing = 0;      // Pulses: R; as the first place in the program's units
+    int mode = 0;                   // InputWait and Pulses: L
+    bool is_analog = false;         // InputWait: E
+    double spacing = 0;             // Pulses: R; as the first place in the program's units
+    ProgramEvent::Kind switched{};  // Output
 };
 
 using Action = std::variant<Straight, Arc, Spline, Dwell, Probing, Event>;

@@ -5,7 +5,7 @@ namespace {
 
 static_assert(static_cast<int>(PathMode::ExactStop) == proto::EXACT_STOP && proto::PathMode_ARRAYSIZE == 3);
 static_assert(static_cast<int>(ProgramEvent::Kind::Tool) == proto::ProgramEvent::TOOL &&
-              ProgramEvent::kKinds == proto::ProgramEvent::Kind_ARRAYSIZE);
+              kEventWords.size() == proto::ProgramEvent::Kind_ARRAYSIZE);
 
 static_assert(static_cast<int>(PauseReason::PalletChange) == proto::Pause::PALLET_CHANGE);
 static_assert(static_cast<int>(PauseReason::Input) == proto::Pause::INPUT);  // Hold is not of a program

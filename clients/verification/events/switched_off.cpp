@@ -4,7 +4,6 @@
 
 #include "clients/verification/jobs/record_text.hpp"
 #include "core/outputs/output_levels.hpp"
-#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep::verification {
 

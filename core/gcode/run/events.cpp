@@ -1,5 +1,6 @@
 // Words that move no axis: messages, spindle, tools, outputs, coolant, overrides, dwells and stops.
 #include <algorithm>
+#include <array>
 
 #include "core/gcode/run/compensation.hpp"
 #include "core/gcode/run/steps.hpp"
@@ -51,11 +52,30 @@ std::expected<int, GcodeError> output_index(const Context& context, char letter)
     return *index;
 }
 
-Result analog_output(const Context& context) {
-    const auto index = output_index(context, 'E');
+/// A word that switches an output: P or E names the output. Those with E have a value, Q.
+struct OutputWord {
+    int code;  // of M, times ten
+    ProgramEvent::Kind switched;
+    char letter;
+};
+constexpr std::array kOutputWords{
+    OutputWord{620, ProgramEvent::Kind::OutputOn, 'P'},     OutputWord{630, ProgramEvent::Kind::OutputOff, 'P'},
+    OutputWord{640, ProgramEvent::Kind::OutputOn, 'P'},     OutputWord{650, ProgramEvent::Kind::OutputOff, 'P'},
+    OutputWord{670, ProgramEvent::Kind::AnalogOutput, 'E'}, OutputWord{680, ProgramEvent::Kind::AnalogOutput, 'E'},
+};
+
+Result switch_output(const Context& context, const OutputWord& word) {
+    const auto index = output_index(context, word.letter);
     if (!index) { return std::unexpected(index.error()); }
-    if (!context.block.has('Q')) { return context.refuse(Group::Output, " has no value; write Q and the value"); }
-    context.event(EventKind::AnalogOutput, *index, context.block['Q']);
+    const bool has_value = word.letter == 'E';
+    if (has_value && !context.block.has('Q')) {
+        return context.refuse(Group::Output, " has no value; write Q and the value");
+    }
+    context.emit(Event{.kind = EventKind::Output,
+                       .index = *index,
+                       .value = has_value ? context.block['Q'] : 0,
+                       .text = {},
+                       .switched = word.switched});
     return {};
 }
 
@@ -164,11 +184,7 @@ Result outputs(Context& context) {
     if (auto checked = context.refuse_compensated(Group::Output); !checked) { return checked; }
     if (code == 660) { return wait_for_input(context); }
     if (code == 690) { return pulses_at_places(context); }
-    if (code == 670 || code == 680) { return analog_output(context); }
-    const auto index = output_index(context, 'P');
-    if (!index) { return std::unexpected(index.error()); }
-    context.event(code == 620 || code == 640 ? EventKind::OutputOn : EventKind::OutputOff, *index);
-    return {};
+    return switch_output(context, *std::ranges::find(kOutputWords, code, &OutputWord::code));
 }
 
 Result spindle(Context& context) {

@@ -15,10 +15,6 @@ namespace {
 /// Returns the same 64 bits as a signed number, because LCM has no unsigned numbers.
 std::int64_t bits(std::uint64_t value) { return static_cast<std::int64_t>(value); }
 
-constexpr std::array<std::string_view, ProgramEvent::kKinds> kEventKinds{
-    "spindle-stop", "spindle-forward", "spindle-reverse", "spindle-speed", "coolant-off",   "mist-on",     "flood-on",
-    "output-on",    "output-off",      "analog-output",   "tool",          "pulse-spacing", "pulse-places"};
-
 constexpr std::array<std::string_view, 5> kChannelKinds{"input", "digital", "analog", "compare-begins", "compare-ends"};
 
 template <typename Small>
@@ -223,11 +219,9 @@ program_event_t to_lcm(const EventRecord& record, Tick now, std::int64_t tick_ns
     return out;
 }
 
-std::string_view name_of(ProgramEvent::Kind kind) { return kEventKinds[static_cast<std::size_t>(kind)]; }
-
 std::optional<ProgramEvent> event_of(const program_event_t& message) {
-    const auto place = std::ranges::find(kEventKinds, message.kind) - kEventKinds.begin();
-    if (place == std::ssize(kEventKinds) || !std::isfinite(message.value)) { return std::nullopt; }
+    const auto place = std::ranges::find(kEventWords, message.kind, &EventWords::name) - kEventWords.begin();
+    if (place == std::ssize(kEventWords) || !std::isfinite(message.value)) { return std::nullopt; }
     return ProgramEvent{.kind = static_cast<ProgramEvent::Kind>(place), .index = message.index, .value = message.value};
 }
 

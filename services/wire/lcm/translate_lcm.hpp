@@ -124,9 +124,6 @@ struct EventRecord {
 
 program_event_t to_lcm(const EventRecord& record, Tick now, std::int64_t tick_ns);
 
-/// Returns the name as in program_event_t, such as "spindle-stop".
-std::string_view name_of(ProgramEvent::Kind kind);
-
 /// Returns the event that the message reports; nullopt if its kind is unknown or its value is not finite.
 std::optional<ProgramEvent> event_of(const program_event_t& message);
 

@@ -4,8 +4,6 @@
 
 namespace lockstep {
 
-static_assert(lockstep_wire_EVENT_PULSE_PLACES == static_cast<int>(ProgramEvent::Kind::PulsePlaces));
-
 lockstep_wire_ProgramEvent to_wire(const PublishedEvent& event) {
     return {.term = event.term.number,
             .coordinator = event.term.coordinator,
@@ -17,7 +15,7 @@ lockstep_wire_ProgramEvent to_wire(const PublishedEvent& event) {
             .is_of_program = event.is_of_program,
             .block = event.block,
             .line = event.line.value_or(0),
-            .kind = static_cast<lockstep_wire_EventKind>(event.event.kind),
+            .kind = static_cast<std::uint8_t>(event.event.kind),
             .index = event.event.index,
             .value = event.event.value};
 }
@@ -27,18 +25,19 @@ FromWire<PublishedEvent> from_wire(const lockstep_wire_ProgramEvent& wire) {
     check.far("tick", wire.tick);
     check.within<std::int32_t>("index", wire.index, 0, kMaxEventIndex);
     check.finite("value", wire.value);
-    const auto kind = check.choice("kind", wire.kind, ProgramEvent::Kind::PulsePlaces);
+    check.within<std::size_t>("kind", wire.kind, 0, kEventWords.size() - 1);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
-    return PublishedEvent{.term = {wire.term, wire.coordinator},
-                          .sequence = wire.number,
-                          .job = wire.job,
-                          .epoch = wire.epoch,
-                          .tick = {wire.tick},
-                          .at_rest = wire.at_rest,
-                          .is_of_program = wire.is_of_program,
-                          .block = wire.block,
-                          .line = if_positive(wire.line),
-                          .event = {.kind = kind, .index = wire.index, .value = wire.value}};
+    return PublishedEvent{
+        .term = {wire.term, wire.coordinator},
+        .sequence = wire.number,
+        .job = wire.job,
+        .epoch = wire.epoch,
+        .tick = {wire.tick},
+        .at_rest = wire.at_rest,
+        .is_of_program = wire.is_of_program,
+        .block = wire.block,
+        .line = if_positive(wire.line),
+        .event = {.kind = static_cast<ProgramEvent::Kind>(wire.kind), .index = wire.index, .value = wire.value}};
 }
 
 }  // namespace lockstep

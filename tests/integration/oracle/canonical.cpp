@@ -321,9 +321,9 @@ void CallList::take_event(const gcode::Event& event) {
         case EventKind::SpeedOverride: return add("speed override", {event.value});
         case EventKind::AdaptiveFeed: return add("adaptive feed", {event.value});
         case EventKind::FeedHold: return add("feed hold", {event.value});
-        case EventKind::OutputOn: return add("on", {index});
-        case EventKind::OutputOff: return add("off", {index});
-        case EventKind::AnalogOutput: return add("analog", {index, event.value});
+        case EventKind::Output:
+            if (event.switched == ProgramEvent::Kind::AnalogOutput) { return add("analog", {index, event.value}); }
+            return add(event.switched == ProgramEvent::Kind::OutputOn ? "on" : "off", {index});
         case EventKind::Message: return add("message", numbers_in(event.text));
         default: return;
     }

@@ -247,7 +247,7 @@ TEST(HostileEvent, IsRefused) {
         expect_refused(wire, field);
     };
     refuse("tick", [](auto& m) { m.tick = std::numeric_limits<std::int64_t>::min(); });
-    refuse("kind", [](auto& m) { overwrite(m.kind, ProgramEvent::kKinds); });
+    refuse("kind", [](auto& m) { m.kind = kEventWords.size(); });
     refuse("index", [](auto& m) { m.index = -1; });
     refuse("index", [](auto& m) { m.index = kMaxEventIndex + 1; });
     refuse("value", [](auto& m) { m.value = std::nan(""); });

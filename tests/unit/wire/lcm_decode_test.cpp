@@ -208,7 +208,7 @@ TEST(ToLcm, HealthIsInMicrosecondsAndMilliseconds) {
 }
 
 TEST(FromLcm, AnEventOfEachKindIsWhatItWas) {
-    for (std::size_t kind = 0; kind < ProgramEvent::kKinds; ++kind) {
+    for (std::size_t kind = 0; kind < kEventWords.size(); ++kind) {
         const ProgramEvent event{.kind = static_cast<ProgramEvent::Kind>(kind), .index = 3, .value = 0.5};
         program_event_t message = an_event();
         message.kind = name_of(event.kind);

@@ -118,7 +118,7 @@ PublishedEvent RandomMessages::event() {
             .is_of_program = coin(),
             .block = static_cast<std::uint32_t>(bits()),
             .line = maybe(static_cast<std::int32_t>(between(1, INT32_MAX))),
-            .event = {.kind = static_cast<ProgramEvent::Kind>(index(ProgramEvent::kKinds)),
+            .event = {.kind = static_cast<ProgramEvent::Kind>(index(kEventWords.size())),
                       .index = static_cast<std::int32_t>(between(0, kMaxEventIndex)),
                       .value = static_cast<double>(between(-1'000'000, 1'000'000)) / 7}};
 }
