@@ -2,6 +2,7 @@
 // own switches.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,26 +11,50 @@
 #include <string_view>
 #include <vector>
 
+#include "core/faults.hpp"
+
 namespace lockstep {
 
+/// One row for each use: its name in reports, what it means that the input is closed, its letter in grbl's Pn, and the
+/// refusal of motions while it is closed. An input with a refusal holds the machine: it comes to rest on its path and
+/// stays there. The order is that of idl/proto/machine.proto.
+// clang-format off
+#define LOCKSTEP_INPUT_USES(X) \
+    /* the device stops by itself, and the whole machine stops */ \
+    X(EmergencyStop, "emergency-stop", "emergency stop", 'E', None) \
+    X(Door, "door", "door open", 'D', DoorOpen) \
+    /* programs may read it */ \
+    X(Program, "program", "", 0, None) \
+    /* moves end where it touches */ \
+    X(Probe, "probe", "", 'P', None) \
+    /* the switch of axes whose motors are not those of its device alone */ \
+    X(Home, "home", "", 0, None)
+// clang-format on
+
 enum class InputUse : std::uint8_t {
-    EmergencyStop,  // the device stops by itself, and the whole machine stops
-    Door,           // the machine comes to rest on its path and stays there
-    Program,        // programs may read it
-    Probe,          // moves end where it touches
-    Home,           // the switch of axes whose motors are not those of its device alone
+#define X(use, name, closed, letter, refusal) use,
+    LOCKSTEP_INPUT_USES(X)
+#undef X
 };
 
-constexpr std::string_view name_of(InputUse use) {
-    switch (use) {
-        case InputUse::EmergencyStop: return "emergency-stop";
-        case InputUse::Door: return "door";
-        case InputUse::Probe: return "probe";
-        case InputUse::Home: return "home";
-        case InputUse::Program: break;
-    }
-    return "program";
-}
+struct InputUseRow {
+    InputUse use;
+    std::string_view name;
+    std::string_view closed;  // empty: that is nothing special
+    char letter;              // 0: none
+    FaultCode refusal;        // None: it does not hold the machine
+
+    constexpr bool holds() const { return refusal != FaultCode::None; }
+};
+
+inline constexpr std::array kInputUses{
+#define X(use, name, closed, letter, refusal) InputUseRow{InputUse::use, name, closed, letter, FaultCode::refusal},
+    LOCKSTEP_INPUT_USES(X)
+#undef X
+};
+
+constexpr const InputUseRow& row_of(InputUse use) { return kInputUses[static_cast<std::size_t>(use)]; }
+constexpr std::string_view name_of(InputUse use) { return row_of(use).name; }
 
 /// What the touch of a probe does while the machine moves without a probing move of it.
 enum class TouchInMotion : std::uint8_t {

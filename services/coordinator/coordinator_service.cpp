@@ -247,9 +247,12 @@ private:
                     "the client of job {} fell silent; the job is held (unattended_job: BE_HELD); continue: lockstep "
                     "resume",
                     notice.number);
-            case Kind::DoorOpen:
-                return log_warning("a door opened in motion: " + lockstep::label_of(machine_.inputs[notice.number]) +
-                                   " is closed; the machine comes to rest; close the door, then: lockstep resume");
+            case Kind::DoorOpen: {
+                const InputConfig& input = machine_.inputs[notice.number];
+                const FaultText& refusal = *find_fault(row_of(input.use).refusal);
+                return log_warning("{} closed in motion: {}; the machine comes to rest; {}, then: lockstep resume",
+                                   lockstep::label_of(input), refusal.cause, refusal.by_hand);
+            }
             case Kind::TouchInMotion: return log_warning(touch_text(notice.number));
             case Kind::EpochBegun: return log_info("epoch {} begun", notice.number);
             case Kind::Interrupted:

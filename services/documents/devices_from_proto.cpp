@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <google/protobuf/descriptor.h>
 
 #include <algorithm>
 
@@ -86,14 +87,20 @@ double usual_silence_ms(const ProtocolTiming& timing) {
     return std::max(MachineConfig{}.output_silence_ms, 5 * stall_ms);
 }
 
-InputUse read_use(proto::InputUse use) {
-    switch (use) {
-        case proto::DOOR: return InputUse::Door;
-        case proto::PROGRAM: return InputUse::Program;
-        case proto::PROBE: return InputUse::Probe;
-        case proto::HOME: return InputUse::Home;
-        default: return InputUse::EmergencyStop;
+static_assert(static_cast<int>(InputUse::Door) == proto::DOOR && static_cast<int>(InputUse::Home) == proto::HOME);
+static_assert(kInputUses.size() == proto::InputUse_ARRAYSIZE);
+
+/// "EMERGENCY_STOP, DOOR or HOME"
+std::string choice_of(const google::protobuf::EnumDescriptor& values) {
+    std::string text = values.value(0)->name();
+    for (int i = 1; i < values.value_count(); ++i) {
+        text += (i + 1 == values.value_count() ? " or " : ", ") + values.value(i)->name();
     }
+    return text;
+}
+
+InputUse read_use(proto::InputUse use) {
+    return proto::InputUse_IsValid(use) ? static_cast<InputUse>(use) : InputUse::EmergencyStop;
 }
 
 TouchInMotion read_touch_in_motion(proto::TouchInMotion asked) {
@@ -111,9 +118,8 @@ InputConfig read_input(const proto::Input& message, const std::string& place, Pr
     reader.require(message.has_channel(), message.channel(), input.channel, place + ".channel");
     reader.require(message.has_use(), read_use(message.use()), input.use, place + ".use");
     if (!proto::InputUse_IsValid(message.use())) {
-        reader.refuse(place + ".use",
-                      fmt::format("{}.use is {}; it must be EMERGENCY_STOP, DOOR, PROGRAM, PROBE or HOME", place,
-                                  int{message.use()}));
+        reader.refuse(place + ".use", fmt::format("{}.use is {}; it must be {}", place, int{message.use()},
+                                                  choice_of(*proto::InputUse_descriptor())));
     }
     input.active_low = message.active_low();
     if (message.has_debounce_ms()) { input.debounce_ms = message.debounce_ms(); }

@@ -208,11 +208,10 @@ void write_board(const BoardConfig& board, proto::Board& message) {
 }
 
 void write_input(const InputConfig& input, proto::Input& message) {
-    constexpr std::array kUses{proto::EMERGENCY_STOP, proto::DOOR, proto::PROGRAM, proto::PROBE, proto::HOME};
     message.set_name(input.name);
     input.at_board ? message.set_board(input.motor) : message.set_motor(input.motor);
     message.set_channel(input.channel);
-    message.set_use(kUses[static_cast<std::size_t>(input.use)]);
+    message.set_use(static_cast<proto::InputUse>(input.use));
     message.set_active_low(input.active_low);
     message.set_debounce_ms(input.debounce_ms);
     if (input.number) { message.set_number(*input.number); }

@@ -1,6 +1,7 @@
 #include "clients/grbl/protocol/machine_view.hpp"
 
 #include <cmath>
+#include <ranges>
 
 #include "core/kinematics/kinematics.hpp"
 #include "core/kinematics/motor_inputs.hpp"
@@ -48,9 +49,9 @@ std::string letters_of_inputs(const MachineConfig& machine,
                               const std::function<std::uint32_t(std::size_t motor)>& closed_of) {
     const MotorInputs inputs(machine);
     std::string letters;
-    if (inputs.closed(InputUse::Probe, closed_of)) { letters += 'P'; }
-    if (inputs.closed(InputUse::Door, closed_of)) { letters += 'D'; }
-    if (inputs.closed(InputUse::EmergencyStop, closed_of)) { letters += 'E'; }
+    for (const InputUseRow& row : kInputUses | std::views::reverse) {
+        if (row.letter != 0 && inputs.closed(row.use, closed_of)) { letters += row.letter; }
+    }
     return letters;
 }
 

@@ -67,9 +67,11 @@ std::vector<std::string> alarms_of(const proto::StatusReport& status, const Slac
         if (axis->has_fault()) { add(sentence(axis->fault())); }
     }
     for (const proto::InputStatus& input : status.inputs()) {
-        if (input.closed() && input.use() == name_of(InputUse::Door)) {
-            add("a door is open: " + label_of(input) + " is closed; close the door, then: lockstep resume");
-        }
+        const auto row = std::ranges::find(kInputUses, input.use(), &InputUseRow::name);
+        if (!input.closed() || row == kInputUses.end() || !row->holds()) { continue; }
+        const FaultText& refusal = *find_fault(row->refusal);
+        add(fmt::format("{}: {} is closed; {}, then: lockstep resume", refusal.cause, label_of(input),
+                        refusal.by_hand));
     }
     for (const proto::AxisStatus* const row : process_rows(status)) {
         if (!row->present()) {

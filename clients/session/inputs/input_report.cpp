@@ -1,5 +1,7 @@
 #include "clients/session/inputs/input_report.hpp"
 
+#include <algorithm>
+
 #include "core/faults.hpp"
 #include "core/kinematics/motor_inputs.hpp"
 #include "core/kinematics/motors.hpp"
@@ -8,8 +10,8 @@ namespace lockstep {
 namespace {
 
 std::string meaning_of(const proto::InputStatus& input) {
-    if (input.use() == name_of(InputUse::EmergencyStop)) { return " (emergency stop)"; }
-    return input.use() == name_of(InputUse::Door) ? " (door open)" : "";
+    const auto row = std::ranges::find(kInputUses, input.use(), &InputUseRow::name);
+    return row == kInputUses.end() || row->closed.empty() ? "" : " (" + std::string(row->closed) + ")";
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ CommandResult check_ready(const MachineActivity& activity, const LoopView& loop)
     if (phase == MachinePhase::Fault) { return refuse_in_fault(activity.fault().code); }
     if (activity.is_held()) { return refuse(FaultCode::Held, "a job is held or paused"); }
     if (activity.in_motion()) { return refuse(FaultCode::Busy, "the machine is " + std::string(name_of(phase))); }
-    if (auto closed = check_doors(loop); !closed) { return closed; }
+    if (auto closed = check_holding_inputs(loop); !closed) { return closed; }
     if (phase == MachinePhase::Idle) { return {}; }
     return refuse(FaultCode::NotReady, "some axes do not follow the coordinator yet, or are not at rest");
 }
@@ -232,7 +232,7 @@ CommandResult move_own(const Command& command, BeginSteps begin_steps, JobLifecy
 }
 
 CommandResult begin_path_jog(const Command& command, Tick renewed, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    if (auto closed = check_doors(loop); !closed) { return closed; }
+    if (auto closed = check_holding_inputs(loop); !closed) { return closed; }
     if (auto homed = check_homed(loop); !homed) { return homed; }
     if (auto square = check_square(loop); !square) { return square; }
     if (auto clocks = check_clocks(loop); !clocks) { return clocks; }
@@ -262,7 +262,7 @@ CommandResult begin_path_jog(const Command& command, Tick renewed, JobLifecycle&
 
 CommandResult jog(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop) {
     MachineActivity& activity = jobs.activity();
-    if (auto closed = check_doors(loop); !closed && !command.jogs.empty()) { return closed; }
+    if (auto closed = check_holding_inputs(loop); !closed && !command.jogs.empty()) { return closed; }
     if (auto* const path = activity.as<activity::OnPath>(); path != nullptr && path->jog) {
         return press_on_path(command, *path, jobs, loop);
     }
@@ -323,7 +323,7 @@ CommandResult resume(const Command& command, JobLifecycle& jobs, CoordinatorLoop
     if (activity.is<activity::InFault>()) { return refuse_in_fault(activity.fault().code); }
     if (!activity.is_held()) { return refuse(FaultCode::NothingToDo, "no job is held or paused"); }
     if (auto present = check_present(loop); !present) { return present; }
-    if (auto closed = check_doors(loop); !closed) { return closed; }
+    if (auto closed = check_holding_inputs(loop); !closed) { return closed; }
     if (auto clocks = check_clocks(loop); !clocks) { return clocks; }
     MachineJob& job = *activity.job();
     job.client = job.client.value_or(command.client);
@@ -401,13 +401,13 @@ void go_on_at_input(JobLifecycle& jobs, CoordinatorLoop& loop) {
 }
 
 void hold_for_doors(JobLifecycle& jobs, CoordinatorLoop& loop) {
-    const auto door = loop.axes.closed_input(InputUse::Door);
-    if (!door) { return; }
+    const auto input = holding_input(loop.axes);
+    if (!input) { return; }
     jobs.cut_inherited(TakeoverDoubt::Interrupted, loop);
     const MachineActivity& activity = jobs.activity();
     const bool goes_on = activity.in_motion() && activity.intent() == Intent::GoOn;
     if (!goes_on && !waits_for_input(activity)) { return; }
-    loop.notice({CoordinatorNotice::Kind::DoorOpen, FaultCode::None, *door});
+    loop.notice({CoordinatorNotice::Kind::DoorOpen, FaultCode::None, *input});
     (void)interrupt(activity.is<activity::OwnMoves>() ? Intent::Stop : Intent::Hold, jobs, loop);
 }
 

@@ -36,8 +36,8 @@ CommandResult carry_out(const Command& command, BeginSteps begin_steps, JobLifec
 /// Call it once a slot. A job that waits for an input goes on when the input is as wanted, and waits for a person after
 /// the time limit.
 void go_on_at_input(JobLifecycle& jobs, CoordinatorLoop& loop);
-/// While a door is open, what moves comes to rest: held as by a client, or stopped if it cannot be held. A job that
-/// waits for an input is held.
+/// While an input holds the machine, such as an open door, what moves comes to rest: held as by a client, or stopped if
+/// it cannot be held. A job that waits for an input is held.
 void hold_for_doors(JobLifecycle& jobs, CoordinatorLoop& loop);
 
 /// The client with the lease fell silent. Its job on a path runs on or is held, as configured.

@@ -44,11 +44,21 @@ CommandResult check_clocks(const LoopView& loop) {
                       "coordinator's clock, check the network to the axis, or increase timing.slot_us");
 }
 
-CommandResult check_doors(const LoopView& loop) {
-    const auto door = loop.axes.closed_input(InputUse::Door);
-    if (!door) { return {}; }
-    return refuse(FaultCode::DoorOpen, "a door is open: " + label_of(loop.machine.inputs[*door]) +
-                                           " is closed; close the door, then give the command again");
+std::optional<std::size_t> holding_input(const AxisRoster& axes) {
+    for (const InputUseRow& row : kInputUses) {
+        const auto input = row.holds() ? axes.closed_input(row.use) : std::nullopt;
+        if (input) { return input; }
+    }
+    return std::nullopt;
+}
+
+CommandResult check_holding_inputs(const LoopView& loop) {
+    const auto holding = holding_input(loop.axes);
+    if (!holding) { return {}; }
+    const InputConfig& input = loop.machine.inputs[*holding];
+    const FaultText& refusal = *find_fault(row_of(input.use).refusal);
+    return refuse(refusal.code, std::string(refusal.cause) + ": " + label_of(input) + " is closed; " +
+                                    std::string(refusal.by_hand) + ", then give the command again");
 }
 
 CommandResult check_emergency_stops(const LoopView& loop) {

@@ -25,8 +25,11 @@ CommandResult check_homed(const LoopView& loop);
 CommandResult check_square(const LoopView& loop);
 /// Checks that the axes agree on the time well enough for coordinated moves.
 CommandResult check_clocks(const LoopView& loop);
-/// Checks that no door is open.
-CommandResult check_doors(const LoopView& loop);
+/// The first of the machine's inputs that is closed and holds the machine, such as an open door; nullopt if there is
+/// none.
+std::optional<std::size_t> holding_input(const AxisRoster& axes);
+/// Checks that no input holds the machine.
+CommandResult check_holding_inputs(const LoopView& loop);
 /// Checks that no emergency stop is closed.
 CommandResult check_emergency_stops(const LoopView& loop);
 std::unexpected<Refusal> refuse_in_fault(FaultCode fault);
