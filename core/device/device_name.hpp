@@ -22,6 +22,8 @@ struct DeviceName {
     /// Hardware counts the ticks of its own oscillator, for which frames must leave room. Simulated devices count those
     /// of the host's clock, and so does a process that maps a file.
     bool has_own_clock() const { return kind == Kind::Mapped || kind == Kind::Linked; }
+    /// Whether it is one of a board behind a link.
+    bool is_of_board(std::string_view board) const { return kind == Kind::Linked && place == board; }
     /// As in the machine's file.
     std::string text() const;
     bool operator==(const DeviceName&) const = default;

@@ -25,8 +25,7 @@ namespace {
 unsigned motors_of_board(const MachineConfig& machine, const std::string& board) {
     unsigned motors = 0;
     for (const MotorConfig& motor : motors_of(machine)) {
-        const bool is_there = motor.device.kind == DeviceName::Kind::Linked && motor.device.place == board;
-        if (is_there) { motors = std::max(motors, motor.device.number + 1); }
+        if (motor.device.is_of_board(board)) { motors = std::max(motors, motor.device.number + 1); }
     }
     return motors;
 }

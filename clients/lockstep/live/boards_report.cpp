@@ -21,14 +21,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* kByName = "serial/by-id";
 
-bool is_on(const MotorConfig& motor, const std::string& board) {
-    return motor.device.kind == DeviceName::Kind::Linked && motor.device.place == board;
-}
-
 /// The motor of the machine that uses this device of the board; nullptr if none does.
 const MotorConfig* user_of(const std::vector<MotorConfig>& motors, const std::string& board, std::size_t number) {
-    const auto found = std::ranges::find_if(
-        motors, [&](const MotorConfig& motor) { return is_on(motor, board) && motor.device.number == number; });
+    const auto found = std::ranges::find_if(motors, [&](const MotorConfig& motor) {
+        return motor.device.is_of_board(board) && motor.device.number == number;
+    });
     return found == motors.end() ? nullptr : &*found;
 }
 
@@ -87,7 +84,7 @@ proto::BoardReport board_report(const MachineConfig& machine, const BoardLinkCon
     report.set_name(board.name);
     report.set_link(board.link);
     for (const MotorConfig& motor : motors_of(machine)) {
-        if (is_on(motor, board.name)) { report.add_used_by(motor.name); }
+        if (motor.device.is_of_board(board.name)) { report.add_used_by(motor.name); }
     }
     return report;
 }
@@ -98,7 +95,9 @@ void add_motors(const MachineConfig& machine, const std::vector<RegisterWindow>&
     const std::vector<MotorConfig> motors = motors_of(machine);
     std::size_t needed = shown.size();
     for (const MotorConfig& motor : motors) {
-        if (is_on(motor, report.name())) { needed = std::max<std::size_t>(needed, motor.device.number + 1); }
+        if (motor.device.is_of_board(report.name())) {
+            needed = std::max<std::size_t>(needed, motor.device.number + 1);
+        }
     }
     for (std::size_t n = 0; n < needed; ++n) {
         const MotorConfig* const user = user_of(motors, report.name(), n);
