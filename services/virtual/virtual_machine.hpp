@@ -5,59 +5,18 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <variant>
 #include <vector>
 
-#include "services/axis/axis_node.hpp"
 #include "services/virtual/clock_mail.hpp"
 #include "services/virtual/fault_schedule.hpp"
 #include "services/virtual/machine_clocks.hpp"
-#include "services/virtual/process_schedule.hpp"
 #include "services/virtual/virtual_client.hpp"
-#include "services/virtual/virtual_coordinators.hpp"
 #include "services/virtual/virtual_devices.hpp"
+#include "services/virtual/virtual_options.hpp"
 #include "services/virtual/virtual_post.hpp"
+#include "services/virtual/virtual_processes.hpp"
 
 namespace lockstep {
-
-/// Receives all events in order of time. Records and checkers derive from it.
-class VirtualObserver {
-public:
-    virtual ~VirtualObserver() = default;
-    virtual void on_step(std::size_t /*axis*/, StepEdge /*step*/) {}
-    /// Called for each change of an input or output of an axis's device, when the axis's process reads it.
-    virtual void on_channel(std::size_t /*axis*/, const ChannelEvent& /*event*/) {}
-    /// Called after the decisions of an axis's loop, with the node in its new state.
-    virtual void on_axis(std::size_t /*axis*/, Tick /*now*/, const AxisOutputs& /*out*/, AxisNode& /*node*/) {}
-    /// Called when a coordinator has taken a part of a program.
-    virtual void on_part(std::size_t /*process*/, Tick /*now*/, const ProgramPart& /*part*/) {}
-    /// Called after the decisions of a coordinator's loop.
-    virtual void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& /*out*/) {}
-    /// Called when a fault begins and when it has ended.
-    virtual void on_fault(Tick /*now*/, const VirtualFault& /*fault*/, bool /*begins*/) {}
-};
-
-struct VirtualOptions {
-    MachineConfig machine;
-    std::uint64_t config_hash = 1;
-    std::uint64_t seed = 1;
-    NetworkBehaviour network;
-    Tick start{1'000'000};
-    int loops_per_slot = 2;        // each process runs its loop at a random phase
-    bool keeps_positions = false;  // an axis's position outlives its process
-    OnTakeover on_takeover = OnTakeover::Stop;
-    std::size_t coordinators = 1;  // the first to claim the machine owns it, the others stand by
-    /// The clocks of each axis. Axes without an entry read the true time, like the coordinator. Clocks that differ need
-    /// a machine with time_source Network.
-    std::vector<AxisClocks> clocks;
-    /// How late the device of each axis answers. Axes without an entry use its registers. A device that answers late
-    /// has its own clock, so its axis must estimate one (estimates_clock).
-    std::vector<LinkDelay> links;
-    /// Returns the flight log of a process; called at each of its starts. Empty: no process has one.
-    std::function<FlightLog&(std::size_t process)> flight;
-    /// Makes the stores in which coordinators keep programs.
-    MakeRows make_rows = memory_rows;
-};
 
 class VirtualMachine {
 public:
@@ -90,7 +49,7 @@ public:
     /// Sends a part of a program over the network. Returns its sequence number.
     std::uint64_t send(ProgramPart part);
     /// Gives every running coordinator a complete program, without the network.
-    void give_program(std::uint64_t id, const Program& program) { coordinators_.give_program(id, program); }
+    void give_program(std::uint64_t id, const Program& program) { processes_.coordinators().give_program(id, program); }
     const std::vector<Reply>& replies() const { return client_.replies(); }
     /// The reply to a command; null if none has come yet.
     const Reply* reply_to(std::uint64_t sequence) const { return client_.reply_to(sequence); }
@@ -98,7 +57,7 @@ public:
     void forget_reply(std::uint64_t sequence) { client_.forget_reply(sequence); }
 
     /// The process number of the coordinator that owns the machine. If several claim it, the one with the highest term.
-    std::optional<std::size_t> owner() const;
+    std::optional<std::size_t> owner() const { return processes_.owner(); }
 
     Tick now() const { return now_; }
     const MachineConfig& machine() const { return options_.machine; }
@@ -116,44 +75,11 @@ public:
     const AlterationCounts& alterations() const { return post_.alterations(); }
 
 private:
-    /// The process of an axis. `node` is empty while no process runs.
-    struct Axis {
-        std::optional<AxisNode> node;
-        std::optional<AxisFlight> flight;
-        KeptOrNot kept = std::unexpected(FaultCode::PositionNotKept);
-    };
-    /// A stall of a process between the decisions and the actions of a loop.
-    struct Stall {
-        Tick until{};                                                           // the next loop stalls up to this time
-        std::variant<std::monostate, AxisOutputs, CoordinatorOutputs> decided;  // but not carried out
-    };
-
-    // Start and end of processes.
-    void start(std::size_t process, bool other_config = false);
-    void start_axis(std::size_t axis, std::uint64_t config_hash);
-    void crash(std::size_t process);
-    void restart(const VirtualFault& crash);
-    void start_again(std::size_t axis);
-
-    // Faults.
     void take_edge(const FaultSchedule::Edge& edge);
     void begin(const VirtualFault& fault);
     void end(const VirtualFault& fault);
-
-    // Loops.
-    void run_loop(std::size_t process);
-    template <typename Outputs>
-    void act(std::size_t process, const Outputs& out);
-    const AxisOutputs& decide_axis(std::size_t axis);
-    CoordinatorOutputs decide_coordinator(std::size_t process);
-    void carry_out(std::size_t axis, const AxisOutputs& out);
-    void carry_out(std::size_t process, const CoordinatorOutputs& out);
-    void note_part(std::size_t process, const TakenPart& taken, const std::vector<ProgramPart>& parts);
-    void carry_out(std::size_t /*process*/, std::monostate /*nothing*/) {}
+    void restart(const VirtualFault& crash);
     std::uint64_t ask(const Command& command);
-
-    /// The number of a coordinator by that of its process.
-    std::size_t number_of(std::size_t process) const { return process - axes_.size(); }
 
     VirtualOptions options_;
     Tick now_;
@@ -163,12 +89,8 @@ private:
     VirtualClient client_;
     ClockMail clock_mail_;
     FaultSchedule faults_;
-    ProcessSchedule schedule_;
-    std::vector<Axis> axes_;
-    VirtualCoordinators coordinators_;
-    std::vector<Stall> stalls_;       // the axes, then the coordinators
-    Identity axis_identities_ = 100;  // the next one
     std::vector<VirtualObserver*> observers_;
+    VirtualProcesses processes_;
 };
 
 }  // namespace lockstep
