@@ -75,7 +75,7 @@ std::string_view Analysis::unit_of(const std::string& motor) const {
 
 std::optional<double> Analysis::steps_per_mm(const AxisLog& axis) const {
     const MotorConfig* configured = motor_config(axis.name());
-    return configured ? std::optional(configured->steps_per_mm) : axis.steps_per_mm();
+    return configured ? std::optional(configured->steps_per_mm) : axis.positions().steps_per_mm();
 }
 
 std::vector<std::string> Analysis::absent_axes() const {

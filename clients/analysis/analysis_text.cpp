@@ -30,8 +30,10 @@ std::int64_t missing_batches_before(const AxisLog& axis) { return axis.statistic
 std::int64_t missing_batches_of(const AxisLog& axis) {
     return axis.statistics().missing_batches() - axis.statistics().missing_batches_before();
 }
-std::int64_t missing_changes_of(const AxisLog& axis) { return axis.missing_changes(); }
-std::int64_t missing_samples_of(const AxisLog& axis) { return axis.missing_positions() + axis.missing_figures(); }
+std::int64_t missing_changes_of(const AxisLog& axis) { return axis.numbers().changes.missing_within(); }
+std::int64_t missing_samples_of(const AxisLog& axis) {
+    return axis.numbers().positions.missing_within() + axis.numbers().figures.missing_within();
+}
 
 /// Motors with steps that the log lacks.
 std::vector<std::string> axes_not_known(const Analysis& analysis) {
@@ -286,13 +288,13 @@ std::string axis_notes(const AxisLog& axis) {
         text += fmt::format("{}: the last position is {} from the last step in the log\n", axis.name(),
                             plural(std::abs(axis.unrecorded_steps()), "step"));
     }
-    if (const std::int64_t positions = axis.missing_positions(); positions > 0) {
+    if (const std::int64_t positions = axis.numbers().positions.missing_within(); positions > 0) {
         text += fmt::format("{}: {} missing\n", axis.name(), plural(positions, "message") + " of positions");
     }
-    if (const std::int64_t figures = axis.missing_figures(); figures > 0) {
+    if (const std::int64_t figures = axis.numbers().figures.missing_within(); figures > 0) {
         text += fmt::format("{}: {} missing\n", axis.name(), plural(figures, "message") + " of figures");
     }
-    if (const std::int64_t changes = axis.missing_changes(); changes > 0) {
+    if (const std::int64_t changes = axis.numbers().changes.missing_within(); changes > 0) {
         text += fmt::format("{}: {} of inputs and outputs missing\n", axis.name(), plural(changes, "change"));
     }
     const StreamCounts& counts = axis.counts();

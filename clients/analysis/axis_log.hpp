@@ -12,6 +12,7 @@
 #include "clients/analysis/csv.hpp"
 #include "clients/analysis/measure/axis_statistics.hpp"
 #include "clients/analysis/measure/lateness.hpp"
+#include "clients/analysis/measure/position_log.hpp"
 #include "clients/analysis/measure/tick_histogram.hpp"
 #include "clients/analysis/measure/trace.hpp"
 #include "services/record/reading/message_numbers.hpp"
@@ -19,17 +20,6 @@
 #include "services/record/reading/step_stream.hpp"
 
 namespace lockstep::analysis {
-
-/// One axis's position message.
-struct PositionSample {
-    Tick tick;
-    std::int64_t position_steps = 0;
-    double position_mm = 0;
-    double velocity_mm_per_s = 0;
-    std::int64_t incarnation = 0;  // of the axis's process
-    bool is_homed = false;
-    std::int64_t following_error_steps = 0;
-};
 
 /// How late an axis's steps were against the commanded ticks, in ticks.
 struct LateFigures {
@@ -40,16 +30,26 @@ struct LateFigures {
         amounts.add(steps.late, std::ssize(steps.steps));
         if (!keeps_course) { return; }
         course.add_equal(static_cast<double>(steps.late.value), steps.steps.size(),
-                         [&](std::size_t i) { return steps.steps[i].tick; });
+                         [&](std::size_t i) { return steps.steps.tick(i); });
     }
+};
+
+/// The numbers of an axis's messages without steps, of which some may be missing.
+struct SampleNumbers {
+    MessageNumbers positions;
+    MessageNumbers figures;  // of health messages
+    MessageNumbers changes;  // of inputs and outputs
 };
 
 class AxisLog {
 public:
     static constexpr std::string_view kPositionsHeader = "tick,position_steps,position_mm,velocity_mm_per_s";
 
-    /// `keeps_curves`: the courses over time and the trace are wanted.
-    AxisLog(std::string name, bool keeps_curves) : name_(std::move(name)), statistics_(keeps_curves) {
+    /// `keeps_curves`: the courses over time and the trace are wanted. Passes all steps to `listener` too, which must
+    /// live until the end of the log.
+    AxisLog(std::string name, bool keeps_curves, MeasuredListener& listener, std::size_t lane)
+        : name_(std::move(name)), statistics_(keeps_curves) {
+        statistics_.set_listener(listener, lane);
         if (keeps_curves) { stream_.listen(trace_); }
     }
     AxisLog(const AxisLog&) = delete;
@@ -58,15 +58,12 @@ public:
     /// Also writes every later step and position to `steps_<axis>.csv` and `positions_<axis>.csv`.
     std::expected<void, std::string> write_csv(const std::filesystem::path& directory);
 
-    /// Passes later steps to `listener` too, which must live until the end of the log.
-    void set_listener(MeasuredListener& listener, std::size_t lane) { statistics_.set_listener(listener, lane); }
     void take(StepBatch batch);
     void take(const PositionSample& sample);
     void take(LateFigures late) { late_ = std::move(late); }
     void take_slack(Sample slack_ms) { slack_.add(slack_ms); }
-    MessageNumbers& position_numbers() { return position_numbers_; }
-    MessageNumbers& figure_numbers() { return figure_numbers_; }
-    MessageNumbers& change_numbers() { return change_numbers_; }
+    SampleNumbers& numbers() { return numbers_; }
+    const SampleNumbers& numbers() const { return numbers_; }
     /// Call once, at the end. Fails if a file was not written completely.
     std::expected<void, std::string> finish();
 
@@ -79,28 +76,17 @@ public:
     /// The minimum time between a frame's arrival and its start, over time, in ms.
     std::vector<Sample> slack() const { return slack_.samples(); }
     const Trace& trace() const { return trace_; }
-    std::int64_t positions() const { return positions_; }
+    const PositionLog& positions() const { return positions_; }
     /// A frame, a tail or an own move that its device ran.
     void take(const Run& run);
     /// The largest acceleration of their pieces, without sign, in steps per tick^2. Jumps of speed between pieces, up
     /// to the start velocity, are not in it. nullopt without runs.
     std::optional<double> commanded_steps_per_tick2() const { return commanded_acceleration_; }
-    /// Without its sign.
-    std::int64_t largest_following_error() const { return following_error_; }
-    /// Missing messages between the first and the last in the log.
-    std::int64_t missing_positions() const { return position_numbers_.missing_within(); }
-    std::int64_t missing_figures() const { return figure_numbers_.missing_within(); }
-    std::int64_t missing_changes() const { return change_numbers_.missing_within(); }
-    /// From the axis's own messages; nullopt if they do not contain it.
-    std::optional<double> steps_per_mm() const { return steps_per_mm_; }
-    /// The steps from the last recorded step to the last position message. If these agree, the largest distance of any
-    /// position message in between, since the axis may have returned. Not 0 if the log ends too early for these steps,
-    /// or if its end is lost.
-    std::int64_t unrecorded_steps() const;
+    /// PositionLog::unrecorded_steps() at the end of its steps.
+    std::int64_t unrecorded_steps() const { return positions_.unrecorded_steps(end_of_steps()); }
 
 private:
-    std::int64_t unrecorded_at(const PositionSample& sample) const;
-    bool has_new_zero(const PositionSample& sample) const;
+    StepsEnd end_of_steps() const { return {stream_.last_tick(), stream_.position_steps()}; }
 
     std::string name_;
     AxisStatistics statistics_;
@@ -109,17 +95,9 @@ private:
     Course slack_;
     std::unique_ptr<StepCsv> step_csv_;
     std::unique_ptr<CsvFile> position_csv_;
-    MessageNumbers position_numbers_;
-    MessageNumbers figure_numbers_;  // of health messages
-    MessageNumbers change_numbers_;  // of inputs and outputs
-    std::int64_t positions_ = 0;
-    std::int64_t following_error_ = 0;
+    SampleNumbers numbers_;
+    PositionLog positions_;
     std::optional<double> commanded_acceleration_;
-    std::int64_t first_position_steps_ = 0;
-    std::optional<PositionSample> last_position_;
-    std::optional<PositionSample> origin_;  // the first with the newest zero, until steps with it are recorded
-    std::optional<PositionSample> farthest_position_;  // since the last message of steps
-    std::optional<double> steps_per_mm_;
     StepStream stream_{{&statistics_}};
 };
 

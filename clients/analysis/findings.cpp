@@ -214,9 +214,10 @@ void check_events(const Analysis& analysis, Findings& found) {
 /// An encoder that does not follow shows lost steps of the motor, which the record of steps cannot show.
 void check_encoders(const Analysis& analysis, Findings& found) {
     for (const auto& axis : analysis.axes) {
-        if (axis->largest_following_error() <= 1) { continue; }
-        found.push_back({Grade::Doubtful, fmt::format("{}: its encoder was up to {} from its count of steps",
-                                                      axis->name(), plural(axis->largest_following_error(), "step"))});
+        if (axis->positions().largest_following_error() <= 1) { continue; }
+        found.push_back(
+            {Grade::Doubtful, fmt::format("{}: its encoder was up to {} from its count of steps", axis->name(),
+                                          plural(axis->positions().largest_following_error(), "step"))});
     }
 }
 

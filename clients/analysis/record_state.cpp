@@ -58,9 +58,9 @@ RecordState record_state(const Analysis& analysis) {
     for (const auto& axis : analysis.axes) {
         const std::string process = analysis.label_of(axis->name());
         note(process, axis->statistics().missing_batches(), "steps");
-        note(process, axis->missing_positions(), "positions");
-        note(process, axis->missing_figures(), "figures");
-        note(process, axis->missing_changes(), kChannelChanges);
+        note(process, axis->numbers().positions.missing_within(), "positions");
+        note(process, axis->numbers().figures.missing_within(), "figures");
+        note(process, axis->numbers().changes.missing_within(), kChannelChanges);
     }
     note("coordinator", analysis.missing_job_events, "jobs");
     return state;

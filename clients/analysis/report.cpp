@@ -57,9 +57,9 @@ void fill(const Analysis& analysis, const AxisLog& axis, proto::AxisAnalysis& re
     report.set_steps(found.steps());
     report.set_batches(axis.counts().batches);
     report.set_missing_steps(found.missing_steps() + std::abs(axis.unrecorded_steps()));
-    report.set_missing_positions(axis.missing_positions());
-    report.set_missing_figures(axis.missing_figures());
-    report.set_missing_changes(axis.missing_changes());
+    report.set_missing_positions(axis.numbers().positions.missing_within());
+    report.set_missing_figures(axis.numbers().figures.missing_within());
+    report.set_missing_changes(axis.numbers().changes.missing_within());
     if (found.first()) { report.set_first_tick(found.first()->tick.value); }
     if (found.last()) { report.set_last_tick(found.last()->tick.value); }
     report.set_clock_error_us(analysis.microseconds(found.clock_error()));

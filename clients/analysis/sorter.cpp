@@ -25,7 +25,7 @@ void Sorter::on_position(const axis_position_t& message, LogPlace place) {
         return on_damage(place, "a position with impossible numbers");
     }
     end_.saw(RecordKind::Position, message.machine, message.axis, message.incarnation, message.sequence);
-    of->log->position_numbers().add(message.incarnation, message.sequence);
+    of->log->numbers().positions.add(message.incarnation, message.sequence);
     listener_.on_position(message);
     of->log->take(PositionSample{Tick{message.tick}, message.position_steps, message.position_mm,
                                  message.velocity_mm_per_s, message.incarnation, message.homed != 0,
@@ -39,7 +39,7 @@ void Sorter::on_health(const axis_health_t& message, LogPlace place) {
         return on_damage(place, "figures with impossible numbers");
     }
     end_.saw(RecordKind::Health, message.machine, message.axis, message.incarnation, message.sequence);
-    of->log->figure_numbers().add(message.incarnation, message.sequence);
+    of->log->numbers().figures.add(message.incarnation, message.sequence);
     if (message.setpoints > 0) { of->log->take_slack({Tick{message.tick}, message.setpoint_slack_min_ms}); }
 }
 
@@ -92,7 +92,7 @@ void Sorter::on_channel(const channel_event_t& message, LogPlace place) {
         return on_damage(place, "a change of an input or output with an impossible number");
     }
     end_.saw(RecordKind::Channels, message.machine, message.axis, message.incarnation, message.sequence);
-    of->log->change_numbers().add(message.incarnation, message.sequence);
+    of->log->numbers().changes.add(message.incarnation, message.sequence);
     listener_.on_channel(message);
 }
 
@@ -121,8 +121,8 @@ Sorter::Lane* Sorter::lane(const std::string& machine, const std::string& axis, 
         on_damage(place, "more axes than a machine can have");
         return nullptr;
     }
-    Lane lane{.number = lanes_.size(), .log = std::make_unique<AxisLog>(axis, options_.keeps_curves())};
-    lane.log->set_listener(listener_, lane.number);
+    const std::size_t number = lanes_.size();
+    Lane lane{number, std::make_unique<AxisLog>(axis, options_.keeps_curves(), listener_, number)};
     if (options_.csv_dir) { note_error(lane.log->write_csv(*options_.csv_dir)); }
     listener_.on_axis(axis);
     return &(lanes_[axis] = std::move(lane));

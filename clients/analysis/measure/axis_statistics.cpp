@@ -1,8 +1,5 @@
 #include "clients/analysis/measure/axis_statistics.hpp"
 
-#include "clients/analysis/vector/clones.hpp"
-#include "clients/analysis/vector/lanes.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -11,20 +8,6 @@
 #include "services/record/reading/recycled.hpp"
 
 namespace lockstep::analysis {
-namespace {
-
-/// Stores the rates of half of a block's steps, from step `half` on.
-[[gnu::always_inline]] inline void store_rates(const SpeedMeter::Block& block, std::size_t half, StepRates* to) {
-    DoubleLanes speed;
-    DoubleLanes acceleration;
-    load(speed, block.speed.value.data() + half);
-    load(acceleration, block.acceleration.value.data() + half);
-    FloatLanes rates;
-    by_turns(speed < 0 ? -speed : speed, acceleration < 0 ? -acceleration : acceleration, rates);
-    store(rates, to);
-}
-
-}  // namespace
 
 void AxisStatistics::on_batch(const StepBatch& batch) {
     if (batch.steps.empty()) { return; }
@@ -40,7 +23,7 @@ void AxisStatistics::on_batch(const StepBatch& batch) {
         if (i > 0) { i += measure_blocks(batch, i, *measured); }
         if (i == batch.steps.size()) { break; }
         const StepEdge edge = batch.steps[i];
-        if (i > 0) { before = batch.steps[i - 1].tick; }
+        if (i > 0) { before = batch.steps.tick(i - 1); }
         if (edge.tick - before > SpeedMeter::kRest) { show_rest(before, edge.tick); }
         measured->rates[i] = measure(edge, batch.device_tick(i));
     }
@@ -79,10 +62,10 @@ void AxisStatistics::begin(StepEdge edge, std::int64_t position_before) {
 
 /// Measures as many of the steps from `from` on as can be measured in blocks. Returns their number.
 std::size_t AxisStatistics::measure_blocks(const StepBatch& batch, std::size_t from, MeasuredSteps& measured) {
-    if (!batch.device_ticks.empty()) { return 0; }
-    const std::span<const StepEdge> edges = std::span(batch.steps).subspan(from);
+    if (!batch.device_steps.empty()) { return 0; }
+    const StepSpan steps = batch.steps.subspan(from);
     std::size_t done = 0;
-    while (const std::size_t taken = meter_.take_blocks(edges.subspan(done))) {
+    while (const std::size_t taken = meter_.take_blocks(steps.subspan(done))) {
         measure_taken({&measured.rates[from + done], taken});
         done += taken;
     }
@@ -90,13 +73,10 @@ std::size_t AxisStatistics::measure_blocks(const StepBatch& batch, std::size_t f
 }
 
 /// Measures the steps that the meter took in blocks.
-LOCKSTEP_VECTOR_CLONES
 void AxisStatistics::measure_taken(std::span<StepRates> rates) {
     SpeedMeter::Block block;
     for (std::size_t i = 0; i < rates.size(); i += SpeedMeter::kBlock) {
-        meter_.measure_block(block);
-        store_rates(block, 0, &rates[i]);
-        store_rates(block, SpeedMeter::kBlock / 2, &rates[i + SpeedMeter::kBlock / 2]);
+        meter_.measure_block(block, &rates[i]);
         if (!keeps_curves_) { continue; }
         speed_.add_block(block.speed);
         acceleration_.add_block(block.acceleration);

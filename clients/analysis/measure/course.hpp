@@ -11,7 +11,6 @@
 #include <ranges>
 #include <vector>
 
-#include "clients/analysis/vector/lanes.hpp"
 #include "core/units.hpp"
 
 namespace lockstep::analysis {
@@ -33,10 +32,6 @@ struct SampleBlock {
     double highest = 0;
 
     Sample operator[](std::size_t i) const { return {origin + Ticks{at[i]}, value[i]}; }
-    [[gnu::always_inline]] void find_range() {
-        lowest = lowest_of(value);
-        highest = highest_of(value);
-    }
 };
 
 class Course {

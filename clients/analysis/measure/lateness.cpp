@@ -7,8 +7,8 @@
 namespace lockstep::analysis {
 
 EquallyLate EquallyLate::first(std::size_t count) const {
-    const auto part = steps.first(count);
-    return {part, before, change_of(part, is_one_way()), late, error};
+    const StepSpan part = steps.first(count);
+    return {part, before, part.change(), late, error};
 }
 
 EquallyLate EquallyLate::behind(std::size_t count) const {
@@ -81,32 +81,33 @@ LateRun Lateness::compare(StepMaker maker) {
 }
 
 /// The number of steps from the first on that are as late.
-std::size_t Lateness::equally_late(const StepMaker& maker, std::span<const StepEdge> seen,
-                                   std::span<const StepEdge> made, Ticks late) {
+std::size_t Lateness::equally_late(const StepMaker& maker, const StepSpan& seen, const StepSpan& made, Ticks late) {
     if (const auto ahead = maker.ahead_of_commanded()) { return equal_steps(seen, made, late - *ahead); }
-    const auto is_as_late = [&](const StepEdge& a, const StepEdge& b) {
-        return a.direction == b.direction && a.tick - maker.commanded_at(b.tick) == late;
+    const auto is_as_late = [&](std::size_t i) {
+        return seen.direction(i) == made.direction(i) && seen.tick(i) - maker.commanded_at(made.tick(i)) == late;
     };
-    return static_cast<std::size_t>(std::ranges::mismatch(seen, made, is_as_late).in1 - seen.begin());
+    std::size_t equal = 0;
+    while (equal < std::min(seen.size(), made.size()) && is_as_late(equal)) { ++equal; }
+    return equal;
 }
 
 /// Compares the steps of one message with those that are made at once. Returns false behind the last equal step.
 bool Lateness::compare_ready(StepMaker& maker, LateRun& run) {
     if (seen_.empty() || !is_next(maker)) { return false; }
-    const std::span<const StepEdge> made = maker.ready();
-    const std::span<const StepEdge> seen = seen_.ready();
+    const StepSpan made = maker.ready();
+    const StepSpan seen = seen_.ready();
     const std::size_t most = std::min(made.size(), seen.size());
     run.messages.push_back(seen_.batch());
     std::int64_t count = maker.count();
     std::size_t equal = 0;
     while (equal < most) {
-        const Ticks late = seen[equal].tick - maker.commanded_at(made[equal].tick);
+        const Ticks late = seen.tick(equal) - maker.commanded_at(made.tick(equal));
         if (std::abs(late.value) >= kPatience.value) { break; }
         const std::size_t from = equal;
         const std::int64_t before = count;
         equal += equally_late(maker, seen.subspan(from), made.subspan(from), late);
         if (equal == from) { break; }
-        count += change_of(made.subspan(from, equal - from), seen_.batch().is_one_way());
+        count += made.subspan(from, equal - from).change();
         run.groups.push_back({seen.subspan(from, equal - from), before, count - before, late, seen_.clock_error()});
     }
     maker.pass(equal, count);

@@ -10,7 +10,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "clients/analysis/measure/step_queue.hpp"
@@ -20,13 +19,13 @@ namespace lockstep::analysis {
 
 /// Consecutive steps of one run and one message that are equally late.
 struct EquallyLate {
-    std::span<const StepEdge> steps;  // in machine time, as they were made; at least one
-    std::int64_t before = 0;          // the position before them, machine coordinates
-    std::int64_t change = 0;          // of the position by them
-    Ticks late;                       // negative: early
-    Ticks error;                      // uncertainty of `late`
+    StepSpan steps;           // in machine time, as they were made; at least one
+    std::int64_t before = 0;  // the position before them, machine coordinates
+    std::int64_t change = 0;  // of the position by them
+    Ticks late;               // negative: early
+    Ticks error;              // uncertainty of `late`
 
-    Tick commanded(std::size_t step) const { return steps[step].tick - late; }
+    Tick commanded(std::size_t step) const { return steps.tick(step) - late; }
     bool is_one_way() const { return change == std::ssize(steps) || -change == std::ssize(steps); }
     /// The first `count` steps, and the others. `count`: at least one, and not all for behind().
     EquallyLate first(std::size_t count) const;
@@ -67,8 +66,7 @@ private:
     void settle();
     Tick first_end() const;
     bool is_next(StepMaker& maker) const;
-    static std::size_t equally_late(const StepMaker& maker, std::span<const StepEdge> seen,
-                                    std::span<const StepEdge> made, Ticks late);
+    static std::size_t equally_late(const StepMaker& maker, const StepSpan& seen, const StepSpan& made, Ticks late);
     bool compare_ready(StepMaker& maker, LateRun& run);
     void compare_first();
     LateRun compare(StepMaker maker);

@@ -18,6 +18,13 @@ public:
     MergedStep(Ticks tick, std::size_t lane, std::int8_t direction)
         : number_(tick.value * kUnit + static_cast<std::int64_t>(2 * lane) + (direction < 0 ? 1 : 0)) {}
 
+    /// A step of the same kind, by so many ticks later.
+    MergedStep after(Ticks ticks) const {
+        MergedStep later = *this;
+        later.number_ += ticks.value * kUnit;
+        return later;
+    }
+
     Ticks tick() const { return {number_ >> kBits}; }
     std::size_t lane() const { return static_cast<std::size_t>(number_ & (kUnit - 1)) / 2; }
     std::int8_t direction() const { return (number_ & 1) != 0 ? -1 : 1; }
@@ -36,18 +43,12 @@ class MergedSteps {
 public:
     /// The steps of a lane that were not passed.
     struct Lane {
-        std::span<const StepEdge> steps;
+        StepSpan steps;
         const StepRates* rates = nullptr;  // of these steps
         std::int64_t count = 0;            // the position before them
-        bool is_one_way = false;           // no step of them reverses
 
-        /// The number of steps before a tick.
-        std::size_t before(Tick tick) const {
-            if (steps.empty() || steps.back().tick < tick) { return steps.size(); }
-            return static_cast<std::size_t>(std::ranges::lower_bound(steps, tick, {}, &StepEdge::tick) - steps.begin());
-        }
         void pass(std::size_t passed) {
-            count += change_of(steps.first(passed), is_one_way);
+            count += steps.first(passed).change();
             steps = steps.subspan(passed);
             rates += passed;
         }
@@ -70,7 +71,7 @@ public:
     }
     void pass_before(Tick tick) {
         steps_ = steps_.subspan(before(tick).size());
-        for (Lane& lane : lanes_) { lane.pass(lane.before(tick)); }
+        for (Lane& lane : lanes_) { lane.pass(lane.steps.before(tick)); }
     }
     /// Passes the first step and returns it.
     MeasuredStep pop() {

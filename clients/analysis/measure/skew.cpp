@@ -97,7 +97,7 @@ std::int64_t SkewMeter::AxisSteps::from(Tick tick) const {
     std::int64_t steps = 0;
     for (const EquallyLate& group : late->groups) {
         if (group.commanded(group.steps.size() - 1) < tick) { continue; }
-        steps += group.steps.end() - std::ranges::lower_bound(group.steps, tick + group.late, {}, &StepEdge::tick);
+        steps += static_cast<std::int64_t>(group.steps.size() - group.steps.before(tick + group.late));
     }
     return steps;
 }
@@ -106,7 +106,7 @@ const std::vector<Tick>& SkewMeter::AxisSteps::ticks() {
     if (!commanded.empty()) { return commanded; }
     commanded.reserve(size);
     for (const EquallyLate& group : late->groups) {
-        for (const StepEdge& step : group.steps) { commanded.push_back(step.tick - group.late); }
+        for (std::size_t i = 0; i < group.steps.size(); ++i) { commanded.push_back(group.commanded(i)); }
     }
     return commanded;
 }
@@ -144,9 +144,9 @@ void SkewMeter::note_bits(std::vector<AxisSteps>& axes) {
         if (!axis.are_equally_late) { continue; }
         axis.bits.resize(static_cast<std::size_t>(ticks + 63) / 64);
         for (const EquallyLate& group : axis.late->groups) {
-            const std::int64_t origin = (first + group.late).value;
-            for (const StepEdge& step : group.steps) {
-                const auto bit = static_cast<std::uint64_t>(step.tick.value - origin);
+            const std::int64_t later = (group.steps.origin() - (first + group.late)).value;
+            for (const std::int32_t tick : std::span(group.steps.ticks(), group.steps.size())) {
+                const auto bit = static_cast<std::uint64_t>(later + tick);
                 axis.bits[bit / 64] |= std::uint64_t{1} << bit % 64;
             }
         }

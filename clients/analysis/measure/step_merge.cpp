@@ -99,8 +99,8 @@ bool StepMerge::merge_before(Tick end) {
             ready_[i] = {.count = lanes_[i].count};
             continue;
         }
-        ready_[i] = {steps.ready(), steps.rates(), steps.count(), steps.batch().is_one_way()};
-        ready_[i].steps = ready_[i].steps.first(ready_[i].before(end));
+        ready_[i] = {steps.ready(), steps.rates(), steps.count()};
+        ready_[i].steps = ready_[i].steps.first(ready_[i].steps.before(end));
         add(i);
     }
     return !merged_.empty();
@@ -116,11 +116,18 @@ Tick StepMerge::end_of_ready(Tick end) const {
 
 /// Adds the ready steps of a lane.
 void StepMerge::add(std::size_t lane) {
-    const auto& steps = ready_[lane].steps;
+    const StepSpan& steps = ready_[lane].steps;
     if (steps.empty()) { return; }
     added_.resize(steps.size());
-    std::ranges::transform(steps, added_.begin(),
-                           [&](const StepEdge& edge) { return MergedStep(edge.tick - origin_, lane, edge.direction); });
+    const Ticks later = steps.origin() - origin_;
+    if (steps.is_one_way()) {
+        const MergedStep at_origin(later, lane, steps.direction(0));
+        for (std::size_t i = 0; i < steps.size(); ++i) { added_[i] = at_origin.after(Ticks{steps.ticks()[i]}); }
+    } else {
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            added_[i] = MergedStep(later + Ticks{steps.ticks()[i]}, lane, steps.direction(i));
+        }
+    }
     if (merged_.empty()) { return std::swap(merged_, added_); }
     std::swap(merged_, before_);
     merged_.resize(before_.size() + added_.size());
@@ -134,7 +141,7 @@ void StepMerge::pop() {
         StepQueue& steps = lanes_[i].steps;
         if (steps.empty()) { continue; }
         const MergedSteps::Lane& passed = ready_[i];
-        steps.pop(static_cast<std::size_t>(passed.steps.data() - steps.ready().data()), passed.count);
+        steps.pop(static_cast<std::size_t>(passed.steps.ticks() - steps.ready().ticks()), passed.count);
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -12,7 +13,10 @@ namespace lockstep::analysis {
 namespace {
 
 // An interval this many times longer than the previous one contains a rest.
-constexpr std::int64_t kRestRatio = 4;
+constexpr std::int32_t kRestRatio = 4;
+
+// Whole numbers to which any tick of a message can be added without rounding.
+constexpr double kExact = 1LL << 52;
 
 double ticks_between(Tick from, Tick to) { return static_cast<double>(to.value - from.value); }
 
@@ -21,33 +25,34 @@ double ticks_between(Tick from, Tick to) { return static_cast<double>(to.value -
 void Trace::on_batch(const StepBatch& batch) {
     position_ = batch.position_before_steps;
     for (std::size_t i = 0; i < batch.steps.size();) {
-        const bool is_block = i + kBlock <= batch.steps.size();
-        if (is_block && steps(std::span<const StepEdge, kBlock>(&batch.steps[i], kBlock))) {
-            i += kBlock;
-            continue;
-        }
-        for (const std::size_t end = std::min(i + kBlock, batch.steps.size()); i < end; ++i) {
-            step(batch.steps[i], position_);
-            position_ += batch.steps[i].direction;
+        const StepSpan steps = batch.steps.subspan(i, std::min(kBlock, batch.steps.size() - i));
+        i += steps.size();
+        if (steps.size() == kBlock && block(steps)) { continue; }
+        for (const StepEdge& step : steps) {
+            this->step(step, position_);
+            position_ += step.direction;
         }
     }
 }
 
-/// Takes steps as step() does, but all at once, which costs less. Returns false and takes none if the current line
-/// might not pass all of them, or if the axis might have rested or turned.
+/// Takes kBlock steps as step() does, but all at once, which costs less. Returns false and takes none if the current
+/// line might not pass all of them, or if the axis might have rested or turned.
 LOCKSTEP_VECTOR_CLONES
-bool Trace::steps(std::span<const StepEdge, kBlock> edges) {
-    if (!newest_ || !last_step_ || last_interval_ == Ticks{} || !go_on(edges)) { return false; }
+bool Trace::block(const StepSpan& steps) {
+    if (!newest_ || !last_step_ || last_interval_ == Ticks{} || !goes_on(steps)) { return false; }
     const Knot& anchor = knots_.back();
-    const std::int64_t direction = edges[0].direction;
+    const std::int64_t direction = steps.direction(0);
     const double first = static_cast<double>(position_) + static_cast<double>(direction) * 0.5 - anchor.position_steps;
+    const double since = ticks_between(anchor.tick, steps.origin());
+    if (std::abs(since) > kExact) { return false; }
+    const std::int32_t* const ticks = steps.ticks();
     std::array<double, kBlock> slopes;
     std::array<double, kBlock> lows;
     std::array<double, kBlock> highs;
     for (std::size_t i = 0; i < kBlock; ++i) {
-        const double time = ticks_between(anchor.tick, edges[i].tick);
+        const double time = since + ticks[i];
         const double half_angle = tolerance_ / time;
-        slopes[i] = (first + static_cast<double>(static_cast<std::int64_t>(i) * direction)) / time;
+        slopes[i] = (first + static_cast<double>(static_cast<std::int32_t>(i)) * static_cast<double>(direction)) / time;
         lows[i] = slopes[i] - half_angle;
         highs[i] = slopes[i] + half_angle;
     }
@@ -57,28 +62,27 @@ bool Trace::steps(std::span<const StepEdge, kBlock> edges) {
     low_slope_ = low;
     high_slope_ = high;
     position_ += direction * static_cast<std::int64_t>(kBlock);
-    last_step_ = edges.back().tick;
-    last_interval_ = edges[kBlock - 1].tick - edges[kBlock - 2].tick;
+    last_step_ = steps.tick(kBlock - 1);
+    last_interval_ = Ticks{ticks[kBlock - 1] - ticks[kBlock - 2]};
     newest_ = Knot{*last_step_, static_cast<double>(position_ - direction) + static_cast<double>(direction) * 0.5};
     return true;
 }
 
 /// Whether the axis goes on in one direction, without a rest.
 LOCKSTEP_VECTOR_CLONES
-bool Trace::go_on(std::span<const StepEdge, kBlock> edges) const {
-    std::array<std::int64_t, kBlock + 1> intervals;
-    intervals[0] = last_interval_.value;
-    intervals[1] = (edges[0].tick - *last_step_).value;
-    for (std::size_t i = 1; i < kBlock; ++i) { intervals[i + 1] = (edges[i].tick - edges[i - 1].tick).value; }
-    std::array<std::int64_t, kBlock> rests;  // at least 0 where it rests
-    std::int64_t turns = 0;
-    for (std::size_t i = 0; i < kBlock; ++i) { rests[i] = intervals[i + 1] - intervals[i] * kRestRatio; }
-    for (std::size_t i = 0; i < kBlock; ++i) { turns |= edges[i].direction ^ edges[0].direction; }
-    LongLanes first;
-    LongLanes second;
-    load(first, rests.data());
-    load(second, rests.data() + kBlock / 2);
-    return turns == 0 && all_true((first > second ? first : second) < 0);
+bool Trace::goes_on(const StepSpan& steps) const {
+    constexpr std::int64_t kShort = 1 << 28;  // an interval that can be multiplied
+    const Ticks first = steps.tick(0) - *last_step_;
+    if (std::max(first, last_interval_).value > kShort || steps.one_way() < kBlock) { return false; }
+    const std::int32_t* const ticks = steps.ticks();
+    if (ticks[kBlock - 1] - ticks[0] > kShort) { return false; }
+    std::array<std::int32_t, kBlock + 1> intervals;
+    intervals[0] = static_cast<std::int32_t>(last_interval_.value);
+    intervals[1] = static_cast<std::int32_t>(first.value);
+    for (std::size_t i = 1; i < kBlock; ++i) { intervals[i + 1] = ticks[i] - ticks[i - 1]; }
+    std::int32_t rests = 0;
+    for (std::size_t i = 0; i < kBlock; ++i) { rests |= intervals[i + 1] >= intervals[i] * kRestRatio ? 1 : 0; }
+    return rests == 0;
 }
 
 void Trace::on_break(const Break&) { finish(); }

@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "core/units.hpp"
@@ -40,8 +39,8 @@ public:
 
 private:
     static constexpr std::size_t kBlock = 16;
-    bool steps(std::span<const StepEdge, kBlock> edges);
-    bool go_on(std::span<const StepEdge, kBlock> edges) const;
+    bool block(const StepSpan& steps);
+    bool goes_on(const StepSpan& steps) const;
     void step(StepEdge edge, std::int64_t position_before);
     void rest(Tick until, std::int64_t position);
     void point(Tick tick, double position);

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "clients/analysis/measure/job_moves.hpp"
+#include "clients/analysis/moves/job_moves.hpp"
 #include "core/kinematics/kinematics.hpp"
 #include "core/machine.hpp"
 

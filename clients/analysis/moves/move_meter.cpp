@@ -1,7 +1,6 @@
 #include "clients/analysis/moves/move_meter.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "core/kinematics/motors.hpp"
@@ -30,7 +29,7 @@ void MoveMeter::name_lane(std::size_t lane, const std::string& motor) {
 
 void MoveMeter::begin(std::size_t number, Tick from, const MachineConfig& machine, JobMoves moves, bool is_homing) {
     if (jobs_.size() == kJobsOpen) { end_first(); }
-    begin_turn({from, number});
+    turns_.begin(number, from);
     auto plane = mapped_plane(machine, moves);
     const Kinematics kinematics(machine);
     MotorSkewMeter skew(kinematics, is_homing, moves.asked().starts().steps);
@@ -53,12 +52,7 @@ void MoveMeter::go_on(std::size_t number, Tick from) {
     const auto job = std::ranges::find(jobs_, number, &Job::number);
     if (job == jobs_.end()) { return; }
     std::rotate(job, job + 1, jobs_.end());
-    begin_turn({from, number});
-}
-
-void MoveMeter::begin_turn(const Turn& turn) {
-    if (turns_.size() == kTurnsKept) { turns_.erase(turns_.begin()); }
-    turns_.push_back(turn);
+    turns_.begin(number, from);
 }
 
 MoveMeter::Job* MoveMeter::job_of(std::size_t number) {
@@ -67,9 +61,8 @@ MoveMeter::Job* MoveMeter::job_of(std::size_t number) {
 }
 
 MoveMeter::Job* MoveMeter::job_at(Tick tick) {
-    auto turn = turns_.rbegin();
-    while (turn != turns_.rend() && turn->from > tick) { ++turn; }
-    return turn == turns_.rend() ? nullptr : job_of(turn->number);
+    const auto number = turns_.job_at(tick);
+    return number ? job_of(*number) : nullptr;
 }
 
 void MoveMeter::plan_again(std::size_t number) {
@@ -78,18 +71,10 @@ void MoveMeter::plan_again(std::size_t number) {
     }
 }
 
-Tick MoveMeter::end_of_turn(Tick tick) const {
-    Tick end{std::numeric_limits<std::int64_t>::max()};
-    for (const Turn& turn : turns_) {
-        if (turn.from > tick) { end = std::min(end, turn.from); }
-    }
-    return end;
-}
-
 void MoveMeter::take(MergedSteps steps) {
     while (!steps.empty()) {
         Job* job = job_at(steps.tick());
-        const Tick until = end_of_turn(steps.tick());
+        const Tick until = turns_.next_after(steps.tick());
         if (keeps_plane_ || on_place_) { trace(job, steps, until); }
         if (job != nullptr) {
             job->measured.skew.take(steps, job->motor_of_lane, until);
@@ -185,25 +170,6 @@ void MoveMeter::pass_place(const Job& job, std::vector<Position>& at, std::size_
     on_place_(tick, {plane.kinematics->axis_steps(plane.x, at) / job.steps_per_mm[0],
                      plane.kinematics->axis_steps(plane.y, at) / job.steps_per_mm[1]});
     at[motor] = after;
-}
-
-/// nullopt also if the job has no program, or the machine lacks an axis of the plane.
-std::optional<MoveMeter::MappedPlane> MoveMeter::mapped_plane(const MachineConfig& machine, const JobMoves& moves) {
-    const auto place = [&](const char* name) {
-        const auto found = std::ranges::find(machine.axes, name, &AxisConfig::name);
-        return static_cast<std::size_t>(found - machine.axes.begin());
-    };
-    MappedPlane plane{.kinematics = moves.asked().places().kinematics(), .x = place("X"), .y = place("Y")};
-    const bool has_axes = std::max(plane.x, plane.y) < machine.axes.size();
-    if (!moves.is_on_a_line() || plane.kinematics->is_direct() || !has_axes) { return std::nullopt; }
-    const auto scale = [&](std::size_t axis) {
-        return 1 / (machine.axes[axis].steps_per_mm * plane.kinematics->step_mm(axis));
-    };
-    plane.x_scale = scale(plane.x);
-    plane.y_scale = scale(plane.y);
-    const auto& starts = moves.asked().starts().steps;
-    plane.counts.assign(starts.begin(), starts.end());
-    return plane;
 }
 
 /// Whether the plane's axes are where these steps begin.

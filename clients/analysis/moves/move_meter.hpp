@@ -1,4 +1,4 @@
-// Finds the job that each step belongs to, and measures the job's moves.
+// Measures the moves of each job, and traces the path of axes X and Y.
 #pragma once
 
 #include <array>
@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/measure/job_moves.hpp"
 #include "clients/analysis/measure/lateness.hpp"
 #include "clients/analysis/measure/merged_steps.hpp"
 #include "clients/analysis/measure/plane_trace.hpp"
 #include "clients/analysis/motors/motor_skew.hpp"
+#include "clients/analysis/moves/job_moves.hpp"
+#include "clients/analysis/moves/job_turns.hpp"
+#include "clients/analysis/moves/mapped_plane.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep::analysis {
@@ -61,15 +63,6 @@ public:
     void finish();
 
 private:
-    /// The axes X and Y.
-    struct MappedPlane {
-        std::shared_ptr<const Kinematics> kinematics;
-        std::size_t x = 0;
-        std::size_t y = 0;
-        double x_scale = 1;  // steps as in plane(), for each of the axis
-        double y_scale = 1;
-        std::vector<std::int64_t> counts;  // of the motors, after the traced steps
-    };
     struct Job {
         std::size_t number = 0;
         Measured measured;
@@ -83,19 +76,10 @@ private:
         std::optional<std::size_t> motor(const std::string& name) const;
     };
 
-    /// From here on steps belong to the job.
-    struct Turn {
-        Tick from;
-        std::size_t number = 0;
-    };
     /// Null before the first job, and for a job that is over.
     Job* job_at(Tick tick);
-    /// When the next turn begins after a tick.
-    Tick end_of_turn(Tick tick) const;
     Job* job_of(std::size_t number);
-    void begin_turn(const Turn& turn);
     bool joins_plane(const MergedSteps& steps) const;
-    static std::optional<MappedPlane> mapped_plane(const MachineConfig& machine, const JobMoves& moves);
     void trace(Job* job, const MergedSteps& steps, Tick until);
     void begin_trace(Job& job);
     void pass_places(Job& job, const MergedSteps& steps, Tick until) const;
@@ -110,9 +94,8 @@ private:
     std::vector<std::string> lanes_;                    // the motor of each
     std::vector<std::optional<std::size_t>> in_plane_;  // axis of PlaneTrace, 0 or 1, of each lane
     std::vector<std::int64_t> traced_counts_;           // of a mapped plane, in whichever job
-    static constexpr std::size_t kTurnsKept = 4 * kJobsOpen;
-    std::vector<Job> jobs_;    // in the order of their last turns
-    std::vector<Turn> turns_;  // the newest, in the order of time
+    std::vector<Job> jobs_;                             // in the order of their last turns
+    JobTurns turns_;
     PlaneTrace plane_;
     bool plane_is_of_jobs_ = false;
     std::int64_t steps_of_no_job_ = 0;

@@ -25,9 +25,65 @@ template <typename Lanes, typename Number>
     std::memcpy(static_cast<void*>(to), &lanes, sizeof lanes);
 }
 
-/// Divides as doubles.
-[[gnu::always_inline]] inline void divide(const HalfIntLanes& a, const HalfIntLanes& b, DoubleLanes& quotient) {
-    quotient = __builtin_convertvector(a, DoubleLanes) / __builtin_convertvector(b, DoubleLanes);
+/// The first and the second half of the numbers, as doubles.
+[[gnu::always_inline]] inline void to_doubles(const IntLanes& numbers, DoubleLanes& first, DoubleLanes& second) {
+    first = __builtin_convertvector(__builtin_shufflevector(numbers, numbers, 0, 1, 2, 3, 4, 5, 6, 7), DoubleLanes);
+    second =
+        __builtin_convertvector(__builtin_shufflevector(numbers, numbers, 8, 9, 10, 11, 12, 13, 14, 15), DoubleLanes);
+}
+
+/// Divides as doubles: the first and the second half of the quotients.
+[[gnu::always_inline]] inline void divide(const IntLanes& a, const IntLanes& b, DoubleLanes& first,
+                                          DoubleLanes& second) {
+    DoubleLanes of_a[2];
+    DoubleLanes of_b[2];
+    to_doubles(a, of_a[0], of_a[1]);
+    to_doubles(b, of_b[0], of_b[1]);
+    first = of_a[0] / of_b[0];
+    second = of_a[1] / of_b[1];
+}
+
+/// Picks the numbers at rising places, which usually are near each other: from two vectors, without a load for each.
+[[gnu::always_inline]] inline void pick(const std::int32_t* numbers, std::size_t size, const IntLanes& places,
+                                        IntLanes& to) {
+#ifndef __clang__
+    constexpr std::int32_t kReach = 32;
+    const std::int32_t base = std::min(places[0], static_cast<std::int32_t>(size) - kReach);
+    if (base >= 0 && places[15] - base < kReach) {
+        IntLanes a;
+        IntLanes b;
+        load(a, numbers + base);
+        load(b, numbers + base + kReach / 2);
+        to = __builtin_shuffle(a, b, places - base);
+        return;
+    }
+#endif
+    for (int i = 0; i < 16; ++i) { to[i] = numbers[places[i]]; }
+}
+
+/// Picks the numbers at 8 of the places.
+[[gnu::always_inline]] inline void pick(const double* numbers, std::size_t size, const HalfIntLanes& places,
+                                        DoubleLanes& to) {
+#ifndef __clang__
+    constexpr std::int32_t kReach = 16;
+    const std::int32_t base = std::min(places[0], static_cast<std::int32_t>(size) - kReach);
+    if (base >= 0 && places[7] - base < kReach) {
+        DoubleLanes a;
+        DoubleLanes b;
+        load(a, numbers + base);
+        load(b, numbers + base + kReach / 2);
+        to = __builtin_shuffle(a, b, __builtin_convertvector(places - base, LongLanes));
+        return;
+    }
+#endif
+    for (int i = 0; i < 8; ++i) { to[i] = numbers[places[i]]; }
+}
+[[gnu::always_inline]] inline void pick(const double* numbers, std::size_t size, const IntLanes& places,
+                                        DoubleLanes& first, DoubleLanes& second) {
+    const HalfIntLanes half = __builtin_shufflevector(places, places, 0, 1, 2, 3, 4, 5, 6, 7);
+    const HalfIntLanes other = __builtin_shufflevector(places, places, 8, 9, 10, 11, 12, 13, 14, 15);
+    pick(numbers, size, half, first);
+    pick(numbers, size, other, second);
 }
 
 /// Numbers of both, one after the other, as floats.

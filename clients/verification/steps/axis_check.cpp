@@ -46,7 +46,7 @@ void differ_if(const std::optional<std::string>& why, const ComparedRun& run, st
 
 /// The number of the steps, equal by the device's clock, that are also at their commanded machine times. An axis's own
 /// moves follow only the device's clock.
-std::size_t in_time(const SeenBatch& batch, std::span<const StepEdge> steps, ComparedRun& compared,
+std::size_t in_time(const SeenBatch& batch, const StepSpan& steps, ComparedRun& compared,
                     const ClockCheck& clocks, AxisFindings& findings) {
     const Run& run = compared.run();
     if (run.epoch == 0) { return steps.size(); }
@@ -57,7 +57,7 @@ std::size_t in_time(const SeenBatch& batch, std::span<const StepEdge> steps, Com
     if (batch.shares_time() && run.shares_time()) { return steps.size(); }
     const Ticks most = allowed(batch.clock_error(), run.clock_error);
     for (std::size_t i = 0; i < steps.size(); ++i) {
-        const Tick tick = steps[i].tick;
+        const Tick tick = steps.tick(i);
         const Ticks late = length_of(batch.machine_time(tick) - compared->commanded_at(tick));
         if (late > most) { return i; }
         all.latest = std::max(all.latest, late);
@@ -67,7 +67,7 @@ std::size_t in_time(const SeenBatch& batch, std::span<const StepEdge> steps, Com
 
 void pass_equal(std::size_t steps, WaitingSteps& waiting, ComparedRun& run, AxisFindings& findings) {
     const SeenBatch& batch = waiting.batch();
-    findings.add_equal(steps, batch.edges()[steps - 1].tick);
+    findings.add_equal(steps, batch.edges().tick(steps - 1));
     if (run.has_follower()) {
         for (std::size_t i = 0; i < steps; ++i) { run.pass_step(true); }
     } else {
@@ -81,7 +81,7 @@ void pass_equal(std::size_t steps, WaitingSteps& waiting, ComparedRun& run, Axis
 bool compare_equal(WaitingSteps& waiting, ComparedRun& run, const ClockCheck& clocks, AxisFindings& findings) {
     if (waiting.empty()) { return false; }
     const SeenBatch& batch = waiting.batch();
-    const auto made = run->ready();
+    const StepSpan made = run->ready();
     if (made.empty() || batch.incarnation() != run.run().incarnation || batch.count() != run->count()) { return false; }
     const std::size_t equal =
         in_time(batch, made.first(analysis::equal_steps(made, batch.edges())), run, clocks, findings);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <ranges>
 #include <utility>
 
 namespace lockstep::verification {
@@ -50,11 +52,12 @@ std::optional<std::string> PositionCheck::take(const analysis::StepBatch& batch,
 }
 
 bool PositionCheck::Recent::pass_before(Tick tick) {
-    const auto is_before = [&](const StepEdge& step) { return time.at(step.tick) < tick; };
-    const auto* const next = std::partition_point(batch.steps.begin() + passed, batch.steps.end(), is_before);
-    const auto now = static_cast<std::size_t>(next - batch.steps.begin());
-    count += batch.steps.change(passed, now);
-    return std::exchange(passed, now) != now;
+    const analysis::StepSpan left = batch.steps.subspan(passed);
+    const auto is_before = [&](std::size_t step) { return time.at(left.tick(step)) < tick; };
+    const std::size_t now = *std::ranges::partition_point(std::views::iota(std::size_t{0}, left.size()), is_before);
+    count += left.first(now).change();
+    passed += now;
+    return now > 0;
 }
 
 /// Passes the steps before a time.
@@ -75,8 +78,8 @@ std::optional<std::string> PositionCheck::compare(const SeenPosition& position, 
         std::int64_t count = of.count;
         allowed.add(count);
         for (std::size_t i = of.passed; i < of.batch.steps.size(); ++i) {
-            if (of.time.at(of.batch.steps[i].tick) > position.tick + reach) { break; }
-            count += of.batch.steps[i].direction;
+            if (of.time.at(of.batch.steps.tick(i)) > position.tick + reach) { break; }
+            count += of.batch.steps.direction(i);
             allowed.add(count);
         }
     }

@@ -5,13 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <span>
 #include <utility>
 
 #include "clients/verification/steps/seen_step.hpp"
 #include "services/record/reading/step_stream.hpp"
 
 namespace lockstep::verification {
+
+using analysis::StepSpan;
 
 /// A batch of steps from the log, and how many of them were passed.
 class SeenBatch {
@@ -26,16 +27,16 @@ public:
     /// Whether device time is machine time in this batch.
     bool shares_time() const { return batch_.ahead_first == Ticks{} && batch_.ahead_last == Ticks{}; }
     /// The steps that were not passed, in device time.
-    std::span<const StepEdge> edges() const { return std::span(batch_.steps).subspan(passed_); }
+    StepSpan edges() const { return batch_.steps.subspan(passed_); }
     Tick machine_time(Tick device) const { return time_.at(device); }
     /// The position before them.
     std::int64_t count() const { return count_; }
     SeenStep front() const {
-        const StepEdge& edge = batch_.steps[passed_];
+        const StepEdge edge = batch_.steps[passed_];
         return {edge, count_ + edge.direction, batch_.incarnation, time_.at(edge.tick), batch_.clock_error};
     }
     /// The position after the next `steps` of them.
-    std::int64_t count_after(std::size_t steps) const { return count_ + batch_.steps.change(passed_, passed_ + steps); }
+    std::int64_t count_after(std::size_t steps) const { return count_ + edges().first(steps).change(); }
     void pass(std::size_t steps) {
         count_ = count_after(steps);
         passed_ += steps;
@@ -71,10 +72,9 @@ public:
         const std::size_t all = size_;
         for (SeenBatch& batch : batches_) {
             if (batch.incarnation() != incarnation) { continue; }
-            const auto edges = batch.edges();
-            const auto before = std::ranges::lower_bound(edges, tick, {}, &StepEdge::tick) - edges.begin();
-            batch.pass(static_cast<std::size_t>(before));
-            size_ -= static_cast<std::size_t>(before);
+            const std::size_t before = batch.edges().before(tick);
+            batch.pass(before);
+            size_ -= before;
         }
         std::erase_if(batches_, [](const SeenBatch& batch) { return batch.empty(); });
         return static_cast<std::int64_t>(all - size_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -40,6 +41,27 @@ bool are_directions(std::span<const std::int8_t> directions) {
     return others == 0;
 }
 
+bool is_one_way(std::span<const std::int8_t> directions) {
+    std::int8_t others = 0;
+    for (const std::int8_t direction : directions) { others |= static_cast<std::int8_t>(direction ^ directions[0]); }
+    return others == 0;
+}
+
+/// Whether all steps are within the reach of a StepBuffer. Messages are sent every 10 ms.
+bool are_near(std::span<const std::int32_t> deltas) {
+    return std::accumulate(deltas.begin(), deltas.end(), std::int64_t{0}) < StepBuffer::kReach.value;
+}
+
+/// The steps of a message that was checked.
+StepBuffer steps_of(const step_batch_t& message) {
+    std::vector<std::int32_t> ticks = Recycled<std::int32_t>::take(message.delta_ticks.size());
+    std::int32_t tick = 0;
+    for (std::size_t i = 0; i < ticks.size(); ++i) { ticks[i] = tick += message.delta_ticks[i]; }
+    std::vector<std::int8_t> directions;
+    if (!is_one_way(message.direction)) { directions.assign(message.direction.begin(), message.direction.end()); }
+    return {Tick{message.first_tick}, std::move(ticks), message.direction[0], std::move(directions)};
+}
+
 }  // namespace
 
 std::expected<StepBatch, std::string> to_batch(const step_batch_t& message) {
@@ -54,13 +76,8 @@ std::expected<StepBatch, std::string> to_batch(const step_batch_t& message) {
     if (message.delta_ticks.empty()) { return std::unexpected("a message of steps without a step"); }
     if (!do_rise(message.delta_ticks)) { return std::unexpected("the ticks of a message's steps do not rise"); }
     if (!are_directions(message.direction)) { return std::unexpected("a step is neither forward nor backward"); }
-    std::vector<StepEdge> steps = Recycled<StepEdge>::take(message.delta_ticks.size());
-    std::int64_t tick = message.first_tick;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-        tick += message.delta_ticks[i];
-        steps[i] = {Tick{tick}, message.direction[i]};
-    }
-    batch.steps = std::move(steps);
+    if (!are_near(message.delta_ticks)) { return std::unexpected("a message of steps that last too long"); }
+    batch.steps = StepEdges(steps_of(message));
     if (!clocks_agree(batch.machine_time())) {
         return std::unexpected("the clocks of a message of steps differ by an impossible amount");
     }
@@ -74,12 +91,11 @@ StepMessage to_step_message(const step_batch_t& message) {
 StepBatch in_machine_time(StepBatch batch) {
     if (batch.steps.empty() || (batch.ahead_first == Ticks{} && batch.ahead_last == Ticks{})) { return batch; }
     const ClockStretch time = batch.machine_time();
-    std::vector<StepEdge> steps(batch.steps.begin(), batch.steps.end());
-    for (StepEdge& step : steps) {
-        batch.device_ticks.push_back(step.tick);
-        step.tick = time.at(step.tick);
-    }
-    batch.steps = std::move(steps);
+    batch.device_steps = batch.steps;
+    StepBuffer steps;
+    steps.begin(time.at(batch.device_steps.front().tick));
+    for (const StepEdge& step : batch.device_steps) { steps.add({time.at(step.tick), step.direction}); }
+    batch.steps = StepEdges(std::move(steps));
     batch.ahead_first = batch.ahead_last = {};
     return batch;
 }

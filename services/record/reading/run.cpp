@@ -77,7 +77,8 @@ bool is_next(const Run& before, const Run& run) {
            before.frame + (run.tail ? 0 : 1) == run.frame;
 }
 
-StepMaker::StepMaker(Run run) : run_(std::move(run)), engine_(run_.start, run_.from), count_(run_.from.count()) {
+StepMaker::StepMaker(Run run)
+    : run_(std::move(run)), engine_(run_.start, run_.from), ticks_(kMadeAtOnce), count_(run_.from.count()) {
     commanded_.other_from = run_.commanded_start();
 }
 
@@ -92,20 +93,33 @@ void StepMaker::begin_piece() {
     commanded_ = {engine_.now(), ticks, other_from, commanded > 0 ? run_.commanded_ticks[i] : ticks};
 }
 
+/// A piece reverses at most once, so the sum of the directions of some of its steps tells where.
 void StepMaker::make_more() {
-    made_.clear();
-    made_.reserve(kMadeAtOnce);
-    passed_ = 0;
-    while (made_.empty()) {
+    std::int32_t* const ticks = ticks_.data();
+    std::size_t made = 0;
+    std::int64_t change = 0;
+    std::int8_t last = 0;
+    Tick origin;
+    do {
+        origin = engine_.now();
         if (engine_.idle()) {
-            if (begun_ == run_.pieces.size()) { return; }
+            if (begun_ == run_.pieces.size()) { break; }
             begin_piece();
         }
-        engine_.run(engine_.now() + engine_.remaining(), [this](StepEdge step) {
-            made_.push_back(step);
-            return made_.size() < kMadeAtOnce;
+        const Tick until = origin + std::min(engine_.remaining(), StepBuffer::kReach - Ticks{1});
+        engine_.run(until, [&](StepEdge step) {
+            ticks[made] = static_cast<std::int32_t>((step.tick - origin).value);
+            change += step.direction;
+            last = step.direction;
+            return ++made < kMadeAtOnce;
         });
-    }
+    } while (made == 0);
+    passed_ = 0;
+    const auto after_turn = static_cast<std::size_t>((static_cast<std::int64_t>(made) + change * last) / 2);
+    directions_.assign(made - after_turn, static_cast<std::int8_t>(-last));
+    const bool turns = !directions_.empty();
+    directions_.resize(turns ? made : 0, last);
+    ready_ = {origin, {ticks, made}, last, turns ? directions_.data() : nullptr};
 }
 
 }  // namespace lockstep::analysis

@@ -5,13 +5,13 @@
 #include <expected>
 #include <lockstep/run_t.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "core/clock/clock_view.hpp"
 #include "core/protocol/messages.hpp"
 #include "core/step/engine.hpp"
+#include "services/record/reading/steps/step_buffer.hpp"
 
 namespace lockstep::analysis {
 
@@ -68,18 +68,25 @@ bool is_next(const Run& before, const Run& run);
 class StepMaker {
 public:
     explicit StepMaker(Run run);
+    StepMaker(const StepMaker&) = delete;
+    StepMaker& operator=(const StepMaker&) = delete;
+    StepMaker(StepMaker&&) = default;
+    StepMaker& operator=(StepMaker&&) = default;
+    ~StepMaker() = default;
 
     const Run& run() const { return run_; }
     /// The next step; null at the end of the pieces.
     const StepEdge* next() {
-        if (passed_ == made_.size()) { make_more(); }
-        return passed_ < made_.size() ? &made_[passed_] : nullptr;
+        const StepSpan steps = ready();
+        if (steps.empty()) { return nullptr; }
+        next_ = steps.front();
+        return &next_;
     }
-    void pass() { count_ += made_[passed_++].direction; }
+    void pass() { count_ += ready_.direction(passed_++); }
     /// The next steps, as many as are made at once; empty at the end of the pieces.
-    std::span<const StepEdge> ready() {
-        (void)next();
-        return std::span(made_).subspan(passed_);
+    StepSpan ready() {
+        if (passed_ == ready_.size()) { make_more(); }
+        return ready_.subspan(passed_);
     }
     /// The machine time commanded for a ready step.
     Tick commanded_at(Tick tick) const { return commanded_.at(tick); }
@@ -107,8 +114,12 @@ private:
     StepEngine engine_;
     std::size_t begun_ = 0;   // number of pieces begun
     ClockStretch commanded_;  // of the piece begun last, from device time to commanded time
-    std::vector<StepEdge> made_;
-    std::size_t passed_ = 0;  // number of steps of made_ passed
+    // The steps made last.
+    std::vector<std::int32_t> ticks_;
+    std::vector<std::int8_t> directions_;  // empty if they are the same
+    StepSpan ready_;                       // of both
+    std::size_t passed_ = 0;               // number of steps of ready_ passed
+    StepEdge next_;
     std::int64_t count_;
 };
 

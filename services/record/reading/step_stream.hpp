@@ -30,12 +30,12 @@ struct StepBatch {
     StepEdges steps;
     Ticks ahead_first{};  // machine time minus device time, at the first step
     Ticks ahead_last{};
-    Ticks clock_error{};             // of machine time, in both directions
-    std::vector<Tick> device_ticks;  // device time of the steps; empty if `steps` has it
+    Ticks clock_error{};     // of machine time, in both directions
+    StepEdges device_steps;  // the same in device time; empty if `steps` has it
 
     /// Device time of a step. Intervals are exact only by the device's clock; across batches, machine time also
     /// contains the change of its estimate.
-    Tick device_tick(std::size_t step) const { return device_ticks.empty() ? steps[step].tick : device_ticks[step]; }
+    Tick device_tick(std::size_t step) const { return (device_steps.empty() ? steps : device_steps).tick(step); }
 
     /// Converts device time to machine time. The batch must have steps.
     ClockStretch machine_time() const;

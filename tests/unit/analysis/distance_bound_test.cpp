@@ -1,5 +1,5 @@
 // The bound of the distance from a curve, compared with the distance itself.
-#include "clients/analysis/measure/distance_bound.hpp"
+#include "clients/analysis/moves/distance_bound.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The distance of each move from its line is measured from steps in the order of time, and from late steps.
-#include "clients/analysis/measure/job_moves.hpp"
+#include "clients/analysis/moves/job_moves.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "clients/analysis/asked/asked_path.hpp"
-#include "clients/analysis/measure/job_moves.hpp"
 #include "clients/analysis/measure/step_merge.hpp"
 #include "clients/analysis/motors/axis_meter.hpp"
 #include "clients/analysis/motors/motor_skew.hpp"
+#include "clients/analysis/moves/job_moves.hpp"
 #include "services/record/reading/recorded_program.hpp"
 #include "tests/unit/analysis/log_makers.hpp"
 

@@ -28,12 +28,12 @@ struct StepStreamTest : testing::Test {
 
 TEST(StepEdges, CountTheChangeOfPositionOfAnyPart) {
     std::vector<StepEdge> steps = even_steps(0, 10, 6);
-    EXPECT_EQ(StepEdges(steps).change(2, 5), 3);
-    EXPECT_EQ(change_of(steps, true), 6);
+    EXPECT_EQ(StepEdges(steps).subspan(2, 3).change(), 3);
+    EXPECT_EQ(StepEdges(steps).change(), 6);
     steps[4].direction = -1;
-    EXPECT_EQ(StepEdges(steps).change(2, 5), 1);
-    EXPECT_EQ(change_of(steps, false), 4);
-    EXPECT_EQ(change_of({}, false), 0);
+    EXPECT_EQ(StepEdges(steps).subspan(2, 3).change(), 1);
+    EXPECT_EQ(StepEdges(steps).change(), 4);
+    EXPECT_EQ(StepEdges().change(), 0);
 }
 
 TEST_F(StepStreamTest, DeliversEveryStepInOrder) {

@@ -132,7 +132,8 @@ TEST_F(EndedProcess, StepsRecordedByTheSuccessorAreComparedWithThePlan) {
     analysis::StepBatch found = published(frame(2), kSteps);
     found.incarnation = 8;
     found.position_before_steps += 40;
-    found.steps = std::vector<StepEdge>(found.steps.begin() + 40, found.steps.end());
+    const analysis::StepSpan later = found.steps.subspan(40);
+    found.steps = std::vector<StepEdge>(later.begin(), later.end());
     check.take(found);
     check.finish([](std::int64_t incarnation) { return incarnation == 7; }, {});
     EXPECT_FALSE(findings.difference) << findings.difference->text;

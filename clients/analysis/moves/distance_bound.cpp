@@ -1,4 +1,4 @@
-#include "clients/analysis/measure/distance_bound.hpp"
+#include "clients/analysis/moves/distance_bound.hpp"
 
 #include <cmath>
 

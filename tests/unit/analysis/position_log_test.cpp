@@ -1,0 +1,46 @@
+#include "clients/analysis/measure/position_log.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lockstep::analysis {
+namespace {
+
+/// The log has steps until tick 1000, where the axis is at 50.
+constexpr StepsEnd kSteps{.tick = Tick{1000}, .position_steps = 50};
+
+TEST(PositionLog, CountsTheStepsThatALaterPositionShows) {
+    PositionLog log;
+    log.take({.tick = Tick{900}, .position_steps = 45}, kSteps);
+    EXPECT_EQ(log.unrecorded_steps(kSteps), 0);
+    log.take({.tick = Tick{1100}, .position_steps = 53}, kSteps);
+    EXPECT_EQ(log.unrecorded_steps(kSteps), 3);
+}
+
+TEST(PositionLog, RemembersThatTheAxisWentAwayAndCameBack) {
+    PositionLog log;
+    log.take({.tick = Tick{1100}, .position_steps = 57}, kSteps);
+    log.take({.tick = Tick{1200}, .position_steps = 50}, kSteps);
+    EXPECT_EQ(log.unrecorded_steps(kSteps), 7);
+    log.take_steps(Tick{1150});
+    EXPECT_EQ(log.unrecorded_steps({.tick = Tick{1150}, .position_steps = 50}), 0);
+}
+
+TEST(PositionLog, CountsFromANewZeroUntilStepsWithItAreRecorded) {
+    PositionLog log;
+    log.take({.tick = Tick{1050}, .position_steps = 50}, kSteps);
+    log.take({.tick = Tick{1100}, .position_steps = 0, .is_homed = true}, kSteps);
+    log.take({.tick = Tick{1200}, .position_steps = 4, .is_homed = true}, kSteps);
+    EXPECT_EQ(log.unrecorded_steps(kSteps), 4);
+    log.take_steps(Tick{1200});
+    EXPECT_EQ(log.unrecorded_steps({.tick = Tick{1200}, .position_steps = 4}), 0);
+}
+
+TEST(PositionLog, FindsTheStepsPerMm) {
+    PositionLog log;
+    EXPECT_FALSE(log.steps_per_mm());
+    log.take({.tick = Tick{1100}, .position_steps = -200, .position_mm = -2}, kSteps);
+    EXPECT_DOUBLE_EQ(log.steps_per_mm().value(), 100);
+}
+
+}  // namespace
+}  // namespace lockstep::analysis
