@@ -8,8 +8,8 @@
 #include "core/coordinator/command_inbox.hpp"
 #include "core/coordinator/jobs/inherited_job.hpp"
 #include "core/coordinator/jobs/job_lifecycle.hpp"
-#include "core/coordinator/jobs/touch_watch.hpp"
 #include "core/coordinator/ownership.hpp"
+#include "core/coordinator/touch_watch.hpp"
 #include "core/coordinator/writer_lease.hpp"
 #include "core/protocol/slot_gate.hpp"
 

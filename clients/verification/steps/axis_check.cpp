@@ -46,8 +46,8 @@ void differ_if(const std::optional<std::string>& why, const ComparedRun& run, st
 
 /// The number of the steps, equal by the device's clock, that are also at their commanded machine times. An axis's own
 /// moves follow only the device's clock.
-std::size_t in_time(const SeenBatch& batch, const StepSpan& steps, ComparedRun& compared,
-                    const ClockCheck& clocks, AxisFindings& findings) {
+std::size_t in_time(const SeenBatch& batch, const StepSpan& steps, ComparedRun& compared, const ClockCheck& clocks,
+                    AxisFindings& findings) {
     const Run& run = compared.run();
     if (run.epoch == 0) { return steps.size(); }
     differ_if(clocks.take_in_frame(run, batch.clock_error()), compared, steps.empty() ? run.start : steps.front().tick,

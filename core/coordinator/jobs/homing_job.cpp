@@ -145,7 +145,7 @@ void go_on_homing(activity::Homing& homing, const PathTask& task, bool probed, J
                   CoordinatorLoop& loop) {
     if (probed) { loop.out.jobs.push_back(job_events::probed(task, jobs.path())); }
     loop.out.jobs.push_back(job_events::ended(task.job, JobOutcome::Done));
-    if (homing.touch) { homing.touch->moved(probed ? jobs.path().probe() : std::nullopt, loop); }
+    if (homing.touch) { homing.touch->moved(probed ? jobs.path().probing().result() : std::nullopt, loop); }
 }
 
 void advance_homing(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoop& loop) {

@@ -110,7 +110,7 @@ void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& l
         if (next && is_free) { (void)commands::begin_path_jog(*next, renewed, jobs, loop); }
         return;
     }
-    if (!jobs.path().is_overdue()) { return; }
+    if (!jobs.path().runner().is_overdue() || jobs.path().probing().waits()) { return; }
     const auto homing = path.homing;
     // The fault names an axis that does not come to rest.
     jobs.fail({FaultCode::NotAtRest, loop.axes.moving(loop.slot).value_or(0)}, loop);

@@ -33,7 +33,7 @@ inline JobEvent probed(const PathTask& task, const PathRunner& path) {
             .job = task.job.number,
             .job_kind = task.job.kind,
             .epoch = task.has_moved ? path.runner().epoch() : 0,
-            .probe = path.probe()};
+            .probe = path.probing().result()};
 }
 
 }  // namespace lockstep::job_events

@@ -25,7 +25,7 @@ void report_epoch(const PathRunner& path, MachineState& state) {
     state.overrides = path.overrides();
     state.devices = path.events().devices();
     state.events_from = path.events().from();
-    state.probe = path.probe();
+    state.probe = path.probing().result();
 }
 
 void report_held(const PathTask& task, const PathPlace& place, const PathRunner& path, MachineState& state) {

@@ -45,12 +45,9 @@ public:
         return task.probe ? probing_.end(task, end, runner_, loop) : std::nullopt;
     }
 
-    /// The result of the newest probing move.
-    const std::optional<ProbeResult>& probe() const { return probing_.result(); }
+    const Probing& probing() const { return probing_; }
     /// Call it in each slot of an epoch. Sends frames. Returns how the epoch ended, once it has.
     std::optional<EpochEnd> advance(const PathTask& task, const LoopView& loop, CoordinatorOutputs& out);
-    /// The epoch should have come to rest long ago, and it is not just awaited whether an input has touched.
-    bool is_overdue() const { return runner_.is_overdue() && !probing_.waits(); }
     void end_epoch(PathTask& task, const EpochEnd& end, const LoopView& loop, std::vector<PublishedEvent>& out);
 
     const Overrides& overrides() const { return overrides_; }

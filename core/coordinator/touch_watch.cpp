@@ -1,4 +1,4 @@
-#include "core/coordinator/jobs/touch_watch.hpp"
+#include "core/coordinator/touch_watch.hpp"
 
 #include <utility>
 
