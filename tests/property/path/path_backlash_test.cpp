@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-constexpr double kOff_steps = 0.5 + BacklashRows::kSlack + 0.1;
+constexpr double kSlideOff_steps = 0.5 + BacklashRows::kSlack + 0.1;
 
 struct LooseCase {
     PathSetup setup;
@@ -80,8 +80,10 @@ TEST_P(RandomBacklash, LeavesTheSlidesOnTheProgramWithinAStep) {
     Slides slides(drawn.setup);
     const std::vector<Place> places = follow(slides, run_path(drawn.setup, drawn.program));
     const std::vector<Place> way = drawn.program.polyline(drawn.setup);
-    EXPECT_EQ(first_astray(places, way, kOff_steps), std::nullopt) << "of " << places.size();
-    for (std::size_t m = 0; m < drawn.setup.axes(); ++m) { EXPECT_NEAR(places.back()[m], way.back()[m], kOff_steps); }
+    EXPECT_EQ(first_astray(places, way, kSlideOff_steps), std::nullopt) << "of " << places.size();
+    for (std::size_t m = 0; m < drawn.setup.axes(); ++m) {
+        EXPECT_NEAR(places.back()[m], way.back()[m], kSlideOff_steps);
+    }
 }
 
 TEST_P(RandomBacklash, DoesNotMakeFramesDependOnWhenMovesArrive) {
@@ -117,7 +119,7 @@ TEST_P(RandomBacklash, LetsAnInterruptedPathGoOn) {
         if (rest.frames.empty()) { continue; }
         expect_within_limits(drawn.setup, rest);
         for (const Place& place : follow(slides, rest)) { places.push_back(place); }
-        ASSERT_EQ(first_astray(places, way, kOff_steps), std::nullopt) << "frame " << ran;
+        ASSERT_EQ(first_astray(places, way, kSlideOff_steps), std::nullopt) << "frame " << ran;
     }
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 using EventKind = ProgramEvent::Kind;
 
-class RecordedEvents : public testing::Test {
+class EventsInARecord : public testing::Test {
 protected:
     static std::filesystem::path path() { return test::test_directory() / "events.lcm"; }
 
@@ -124,7 +124,7 @@ protected:
     std::int32_t line = 0;
 };
 
-TEST_F(RecordedEvents, AreExact) {
+TEST_F(EventsInARecord, AreExact) {
     record();
     const Findings findings = verify_log(path()).value();
     EXPECT_TRUE(findings.is_exact()) << to_text(findings);
@@ -137,7 +137,7 @@ TEST_F(RecordedEvents, AreExact) {
     EXPECT_EQ(to_report(findings).events_compared(), static_cast<std::int64_t>(events.size()));
 }
 
-TEST_F(RecordedEvents, AtAnotherTickAreFound) {
+TEST_F(EventsInARecord, AtAnotherTickAreFound) {
     record();
     const Findings findings = altered(numbered(3, [](program_event_t& event) { ++event.tick; }));
     ASSERT_TRUE(findings.difference);
@@ -148,7 +148,7 @@ TEST_F(RecordedEvents, AtAnotherTickAreFound) {
         << findings.difference->commanded;
 }
 
-TEST_F(RecordedEvents, WithAnyOtherValueAreFound) {
+TEST_F(EventsInARecord, WithAnyOtherValueAreFound) {
     record();
     const std::vector<std::function<void(program_event_t&)>> changes{
         [](program_event_t& event) { event.kind = "spindle-reverse"; },
@@ -166,7 +166,7 @@ TEST_F(RecordedEvents, WithAnyOtherValueAreFound) {
     }
 }
 
-TEST_F(RecordedEvents, ThatAreMissingAreFound) {
+TEST_F(EventsInARecord, ThatAreMissingAreFound) {
     record();
     const auto events = recorded();
     const auto count = static_cast<std::int64_t>(events.size());
@@ -181,7 +181,7 @@ TEST_F(RecordedEvents, ThatAreMissingAreFound) {
     }
 }
 
-TEST_F(RecordedEvents, ThatAreRecordedTwiceAreFound) {
+TEST_F(EventsInARecord, ThatAreRecordedTwiceAreFound) {
     record();
     for (const std::int64_t number : {std::int64_t{1}, std::int64_t{4}, std::int64_t{40}}) {
         const Findings findings = altered([&](test::AlteredLog& log) {
@@ -201,7 +201,7 @@ TEST_F(RecordedEvents, ThatAreRecordedTwiceAreFound) {
 }
 
 /// Logs that are cut anywhere are never found to differ.
-TEST_F(RecordedEvents, OfALogThatEndsEarlyAreComparedAsFarAsTheyGo) {
+TEST_F(EventsInARecord, OfALogThatEndsEarlyAreComparedAsFarAsTheyGo) {
     record();
     const std::size_t all = test::AlteredLog(path()).events().size();
     for (std::size_t part = 1; part < 40; ++part) {
@@ -210,7 +210,7 @@ TEST_F(RecordedEvents, OfALogThatEndsEarlyAreComparedAsFarAsTheyGo) {
     }
 }
 
-TEST_F(RecordedEvents, OfALogThatBeginsLateAreComparedFromItsFirstJob) {
+TEST_F(EventsInARecord, OfALogThatBeginsLateAreComparedFromItsFirstJob) {
     record();
     const std::size_t all = test::AlteredLog(path()).events().size();
     for (std::size_t part = 1; part < 20; ++part) {
@@ -226,7 +226,7 @@ TEST_F(RecordedEvents, OfALogThatBeginsLateAreComparedFromItsFirstJob) {
     }
 }
 
-class EventsOfTwo : public RecordedEvents {
+class EventsOfTwo : public EventsInARecord {
 protected:
     void record_takeover(std::int64_t crash_ms) {
         const MachineConfig machine = test::example("two-axis");
