@@ -56,6 +56,7 @@ std::optional<std::string> machine_with_key(const Key& key, const std::string& v
         {"Homing", {"homing { ", " }"}},
         {"Plant", {"plant { ", " }"}},
         {"Pins", {"pins { ", " }"}},
+        {"Backlash", {"homing { pulloff_mm:20 } backlash { mm: 0.1 ", " }"}},
         {"Input", {"input { name: \"s\" motor: \"X\" channel: 3 use: PROBE number: 1 ", " }"}},
         {"Output", {"output { name: \"o\" motor: \"X\" channel: 0 number: 0 ", " }"}},
         {"Pwm", {"output { name: \"o\" motor: \"X\" use: SPINDLE pwm { hz: 100 ", " } }"}},
@@ -64,7 +65,8 @@ std::optional<std::string> machine_with_key(const Key& key, const std::string& v
     if (around == kAround.end()) { return std::nullopt; }
     const std::string before = std::regex_replace(around->second.first, std::regex(key.name + R"(: \S+ )"), "");
     const std::string line = before + key.name + ": " + value + around->second.second;
-    const bool in_axis = key.block == "Axis" || key.block == "Homing" || key.block == "Plant" || key.block == "Pins";
+    const bool in_axis = key.block == "Axis" || key.block == "Homing" || key.block == "Plant" || key.block == "Pins" ||
+                         key.block == "Backlash";
     const std::string given = std::regex_replace(std::string(kShortest), std::regex("  " + key.name + ": .*"), "");
     return in_axis ? with("\n}", "\n  " + line + "\n}", given) : given + line + "\n";
 }
