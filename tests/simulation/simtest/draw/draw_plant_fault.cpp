@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/protocol/rules.hpp"
+
 namespace lockstep::simtest {
 namespace {
 

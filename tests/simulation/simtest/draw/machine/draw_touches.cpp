@@ -12,8 +12,7 @@
 namespace lockstep::simtest {
 namespace {
 
-constexpr int kFirstChannel = 6;
-constexpr std::ptrdiff_t kChannels = 2;
+constexpr int kHomeChannel = 7;
 constexpr double kMostSlots = 4000;  // of a search
 
 /// From the switch to the limit switch behind it, less two steps.
@@ -25,17 +24,16 @@ double room_mm(const AxisConfig& axis) {
 
 std::optional<InputConfig> draw_switch(Draw& draw, const MachineConfig& machine, const AxisConfig& axis) {
     const std::size_t motor = draw.index(motor_count(machine));
-    InputConfig input{.name = axis.name + "h",
-                      .motor = motor_name(machine, motor),
-                      .at_board = motor >= moving_motor_count(machine),
-                      .channel = kFirstChannel,
-                      .use = InputUse::Home,
-                      .active_low = draw.chance(0.3),
-                      .debounce_ms = draw.chance(0.3) ? 0 : draw.magnitude(0.01, 2),
-                      .max_overshoot_mm = room_mm(axis)};
-    const auto there = std::ranges::count(machine.inputs, input.motor, &InputConfig::motor);
-    input.channel += static_cast<int>(there);
-    return there < kChannels && input.max_overshoot_mm > 0.001 ? std::optional(input) : std::nullopt;
+    const InputConfig input{.name = axis.name + "h",
+                            .motor = motor_name(machine, motor),
+                            .at_board = motor >= moving_motor_count(machine),
+                            .channel = kHomeChannel,
+                            .use = InputUse::Home,
+                            .active_low = draw.chance(0.3),
+                            .debounce_ms = draw.chance(0.3) ? 0 : draw.magnitude(0.01, 2),
+                            .max_overshoot_mm = room_mm(axis)};
+    const bool is_taken = std::ranges::count(machine.inputs, input.motor, &InputConfig::motor) > 0;
+    return !is_taken && input.max_overshoot_mm > 0.001 ? std::optional(input) : std::nullopt;
 }
 
 /// Leaves the axis as it is if its searches would take too long.
