@@ -7,9 +7,7 @@
 #include <utility>
 
 #include "clients/analysis/plane_path.hpp"
-#include "clients/analysis/power/asked_power.hpp"
 #include "core/kinematics/motors.hpp"
-#include "core/outputs/output_levels.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/record/reading/job_of.hpp"
 #include "services/record/reading/log_step.hpp"
@@ -30,6 +28,52 @@ AxisCounts plays_in(const RecordedJob& begun, const MachineConfig& machine) {
     if (begun.start_count.size() != axes + motor_count(machine)) { return plays; }
     for (std::size_t m = axes; m < begun.start_count.size(); ++m) { plays.append(begun.start_count[m]); }
     return plays;
+}
+
+/// What a probing move found; nullopt if it did not touch, or if its record is damaged.
+std::optional<Event> touch_of(const RecordedJob& message, const Analysis& analysis) {
+    const bool is_touched = message.outcome == "touched";
+    if (!is_touched || !analysis.config || !is_countable(message.start_tick)) { return std::nullopt; }
+    std::string what = "the probe touched at";
+    const std::vector<AxisConfig>& axes = analysis.config->axes;
+    for (std::size_t i = 0; i < axes.size() && i < message.start_count.size(); ++i) {
+        what += fmt::format(" {} {:.4f}", axes[i].name, static_cast<double>(message.start_count[i]) / kNmInMm);
+    }
+    return Event{.at = Tick{message.start_tick}, .what = std::move(what), .axis = {}, .remedy = {}};
+}
+
+/// Returns the number of the log of the job that waits for a job that may be in its pause.
+std::optional<std::size_t> paused_by(const JobLog& begun, const std::vector<JobLog>& jobs) {
+    for (std::size_t i = jobs.size(); i-- > 0;) {
+        const JobLog& job = jobs[i];
+        const bool waits = job.coordinator == begun.coordinator && job.begun_us && !job.ended_us && &job != &begun;
+        if (waits && job.kind != "jog" && job.kind != "return") { return i; }
+    }
+    return std::nullopt;
+}
+
+/// Returns null if there is none, or if it cannot be read.
+std::shared_ptr<const RecordedProgram> read_program(const RecordedJob& message, LogPlace place,
+                                                    std::vector<Damage>& damages) {
+    if (!message.has_program() || !message.lacks.empty()) { return nullptr; }
+    auto program = message.read_program();
+    if (program) { return *std::move(program); }
+    note_damage(damages, place, "the program recorded with the job: " + program.error());
+    return nullptr;
+}
+
+void keep_asked_way(const RecordedProgram& program, std::vector<std::vector<drawing::Point>>& kept) {
+    constexpr std::size_t kFewest = 1000;  // a path limited to fewer points may be drawn too coarsely
+    std::size_t points = 0;
+    for (const auto& way : kept) { points += way.size(); }
+    const std::size_t most = Analysis::kAskedPointsKept - points;
+    if (most < kFewest) { return; }
+    auto way = asked_in_plane(program, most);
+    if (way.size() >= 2) { kept.push_back(std::move(way)); }
+}
+
+bool is_during(std::int64_t us, const JobLog& job) {
+    return job.begun_us && *job.begun_us <= us && (!job.ended_us || us <= *job.ended_us);
 }
 
 }  // namespace
@@ -88,7 +132,8 @@ void Recorder::on_job(const RecordedJob& message, LogPlace place) {
                       .axis = {},
                       .remedy = {}});
     } else if (message.event == "probe") {
-        take_probe(message, *record);
+        record->is_touched = message.outcome == "touched";
+        if (auto touch = touch_of(message, analysis_)) { events_.note(*std::move(touch)); }
     } else if (message.event == "ended") {
         program_events_.end(message);
         record->ended_us = message.utime;
@@ -99,37 +144,16 @@ void Recorder::on_job(const RecordedJob& message, LogPlace place) {
     }
 }
 
-void Recorder::take_probe(const RecordedJob& message, JobLog& record) {
-    record.is_touched = message.outcome == "touched";
-    if (!record.is_touched || !analysis_.config || !is_countable(message.start_tick)) { return; }
-    std::string what = "the probe touched at";
-    const std::vector<AxisConfig>& axes = analysis_.config->axes;
-    for (std::size_t i = 0; i < axes.size() && i < message.start_count.size(); ++i) {
-        what += fmt::format(" {} {:.4f}", axes[i].name, static_cast<double>(message.start_count[i]) / kNmInMm);
-    }
-    events_.note({.at = Tick{message.start_tick}, .what = std::move(what), .axis = {}, .remedy = {}});
-}
-
 void Recorder::on_event(const program_event_t& message, const ProgramEvent& event) {
     program_events_.take(message, event);
 }
 
 void Recorder::on_channel(const channel_event_t& message) {
     channels_.take(message);
-    for (PowerLog& power : powers_) { power.meter.take(message); }
+    powers_.take(message);
 }
 
 void Recorder::on_damage(LogPlace place, const std::string& what) { note_damage(analysis_.damages, place, what); }
-
-/// Returns the number of the log of the job that waits for a job that may be in its pause.
-std::optional<std::size_t> Recorder::paused_by(const JobLog& begun) const {
-    for (std::size_t i = analysis_.jobs.size(); i-- > 0;) {
-        const JobLog& job = analysis_.jobs[i];
-        const bool waits = job.coordinator == begun.coordinator && job.begun_us && !job.ended_us && &job != &begun;
-        if (waits && job.kind != "jog" && job.kind != "return") { return number_of(job); }
-    }
-    return std::nullopt;
-}
 
 /// Returns null if there are more jobs than are kept.
 JobLog* Recorder::job(const job_t& message) {
@@ -146,9 +170,9 @@ JobLog* Recorder::job(const job_t& message) {
 void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace place) {
     if (record.begun_us) { return; }  // a repeat
     record.begun_us = message.utime;
-    if (message.may_be_in_pause()) { record.is_in_pause_of = paused_by(record); }
+    if (message.may_be_in_pause()) { record.is_in_pause_of = paused_by(record, analysis_.jobs); }
     read_machine(message, place);
-    const auto program = read_program(message, place);
+    const auto program = read_program(message, place, analysis_.damages);
     if (program && !record.is_in_pause_of) { program_events_.begin(message, *program); }
     if (!message.lacks.empty()) { record.unplannable = message.lacks; }
     if (!analysis_.config) { return; }
@@ -165,11 +189,13 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
         planned ? void(asked = std::move(*planned)) : void(record.unplannable = planned.error());
     }
     if (program && !homes && record.is_on_a_line()) {
-        begin_powers();
-        for (PowerLog& power : powers_) { add_asked_power(*program, power.output, power.asked); }
+        if (powers_.begin(*analysis_.config, *analysis_.kinematics)) {
+            moves_.set_on_place([this](Tick tick, drawing::Point place_mm) { powers_.at(tick, place_mm); });
+        }
+        powers_.ask(*program);
         const bool draws = options_.keeps_curves() && !message.has_program_of(latest_program_);
         if (draws) {
-            keep_asked_way(*program);
+            keep_asked_way(*program, analysis_.asked_ways_mm);
             latest_program_ = message;
         }
     }
@@ -184,57 +210,6 @@ void Recorder::on_late(const std::string& axis, const SharedLate& steps) {
     for (const EquallyLate& group : steps->groups) { lane->late.add(group, options_.keeps_curves()); }
 }
 
-void Recorder::begin_powers() {
-    if (!powers_.empty()) { return; }
-    const MachineConfig& machine = *analysis_.config;
-    const auto number = [&](const char* name) {
-        return static_cast<std::size_t>(std::ranges::find(machine.axes, name, &AxisConfig::name) -
-                                        machine.axes.begin());
-    };
-    if (std::max(number("X"), number("Y")) >= machine.axes.size()) { return; }
-    const double step_mm =
-        std::max(analysis_.kinematics->step_mm(number("X")), analysis_.kinematics->step_mm(number("Y")));
-    for (const OutputConfig& output : machine.outputs) {
-        if (!output.is_analog()) { continue; }
-        PowerMeter meter(PowerTrack(output.motor, output.channel), step_mm, machine.tick_ns);
-        PowerGrid asked(meter.made().cell_mm());
-        powers_.emplace_back(output, std::move(meter), std::move(asked));
-    }
-    if (powers_.empty()) { return; }
-    moves_.set_on_place([this](Tick tick, drawing::Point place_mm) {
-        for (PowerLog& power : powers_) { power.meter.at(tick, place_mm); }
-    });
-}
-
-PowerMap Recorder::finish_power(PowerLog& power) const {
-    power.meter.finish();
-    std::vector<PlacedWord> words;
-    for (const HappenedEvent& event : analysis_.program_events) {
-        if (event.at_rest || !is_switched_by(power.output, event.event)) { continue; }
-        const auto mm = [&](const char* axis) {
-            const auto found = std::ranges::find(event.place, axis, &ProgramPlace::value_type::first);
-            return found == event.place.end() ? std::nullopt : std::optional(found->second);
-        };
-        if (mm("X") && mm("Y")) { words.push_back({event.at, {*mm("X"), *mm("Y")}}); }
-    }
-    return power_map(power.output.name, std::move(power.asked), power.meter.made(), words, power.meter.changes());
-}
-
-bool Recorder::is_during(Tick tick, const JobLog& job) const {
-    const std::int64_t us = analysis_.microseconds_at(tick);
-    return job.begun_us && *job.begun_us <= us && (!job.ended_us || us <= *job.ended_us);
-}
-
-void Recorder::keep_asked_way(const RecordedProgram& program) {
-    constexpr std::size_t kFewest = 1000;  // a path limited to fewer points may be drawn too coarsely
-    const std::size_t most = Analysis::kAskedPointsKept - asked_points_;
-    if (most < kFewest) { return; }
-    auto way = asked_in_plane(program, most);
-    if (way.size() < 2) { return; }
-    asked_points_ += way.size();
-    analysis_.asked_ways_mm.push_back(std::move(way));
-}
-
 void Recorder::read_machine(const RecordedJob& message, LogPlace place) {
     if (analysis_.config && message.config == config_text_) { return; }
     auto config = parse_machine(message.config);
@@ -246,15 +221,6 @@ void Recorder::read_machine(const RecordedJob& message, LogPlace place) {
     axes_.reset();
     if (analysis_.has_motors_as_axes()) { return; }
     axes_.emplace(*analysis_.config, analysis_.kinematics, options_.keeps_curves());
-}
-
-/// Returns null if there is none, or if it cannot be read.
-std::shared_ptr<const RecordedProgram> Recorder::read_program(const RecordedJob& message, LogPlace place) {
-    if (!message.has_program() || !message.lacks.empty()) { return nullptr; }
-    auto program = message.read_program();
-    if (program) { return *std::move(program); }
-    on_damage(place, "the program recorded with the job: " + program.error());
-    return nullptr;
 }
 
 /// Notes the motors with steps in the job that the log lacks.
@@ -271,17 +237,9 @@ void Recorder::note_unknown(JobLog& job, const std::vector<std::string>& motors,
     }
 }
 
-/// Jobs of a machine with other axes are left out.
-void Recorder::note_skew(MotorSkewMeter& skew) {
-    for (const MotorSkew& of : skew.finish()) {
-        const auto known = std::ranges::find(analysis_.motor_skew, of.axis, &MotorSkew::axis);
-        if (known != analysis_.motor_skew.end()) { known->add(of); }
-    }
-}
-
 void Recorder::note_moves(JobLog& job, const JobMoves& moves) {
     for (Event& event : events_.events()) {
-        const auto line = is_during(event.at, job) ? moves.line_at(event.at) : std::nullopt;
+        const auto line = is_during(analysis_.microseconds_at(event.at), job) ? moves.line_at(event.at) : std::nullopt;
         if (line.value_or(0) > 0) { event.line = line; }  // 0: the job's moves are of no line
     }
     job.unasked_steps = moves.unasked_steps();
@@ -328,7 +286,8 @@ Analysis Recorder::finish(Sorter& sorter) {
     merge_.finish([this](MergedSteps steps) { moves_.take(steps); });
     settle_late(kNever);
     for (Event& event : events_.events()) {
-        const auto job = std::ranges::find_if(analysis_.jobs, [&](const JobLog& j) { return is_during(event.at, j); });
+        const auto job = std::ranges::find_if(
+            analysis_.jobs, [&](const JobLog& j) { return is_during(analysis_.microseconds_at(event.at), j); });
         if (job != analysis_.jobs.end()) { event.job = job->job; }
     }
     moves_.finish();
@@ -338,10 +297,7 @@ Analysis Recorder::finish(Sorter& sorter) {
     analysis_.program_events = std::move(program_events_.events());
     std::ranges::stable_sort(analysis_.program_events, {}, &HappenedEvent::at);
     analysis_.program_events_not_kept = program_events_.not_kept();
-    for (PowerLog& power : powers_) {
-        PowerMap map = finish_power(power);
-        if (!map.asked.is_empty()) { analysis_.power_maps.push_back(std::move(map)); }
-    }
+    analysis_.power_maps = powers_.finish(analysis_.program_events);
     channels_.finish(newest_);
     analysis_.channel_changes = std::move(channels_.changes());
     analysis_.channel_courses = channels_.courses();

@@ -13,8 +13,7 @@
 #include "clients/analysis/measure/step_merge.hpp"
 #include "clients/analysis/motors/axis_meter.hpp"
 #include "clients/analysis/moves/move_meter.hpp"
-#include "clients/analysis/power/power_map.hpp"
-#include "clients/analysis/power/power_meter.hpp"
+#include "clients/analysis/power/power_logs.hpp"
 #include "clients/analysis/sorter.hpp"
 #include "services/record/reading/program_events.hpp"
 
@@ -51,15 +50,9 @@ private:
 
     JobLog* job(const job_t& message);
     std::size_t number_of(const JobLog& job) const { return static_cast<std::size_t>(&job - analysis_.jobs.data()); }
-    std::optional<std::size_t> paused_by(const JobLog& begun) const;
     void begin_job(const RecordedJob& message, JobLog& job, LogPlace place);
-    void take_probe(const RecordedJob& message, JobLog& record);
     void read_machine(const RecordedJob& message, LogPlace place);
-    std::shared_ptr<const RecordedProgram> read_program(const RecordedJob& message, LogPlace place);
-    bool is_during(Tick tick, const JobLog& job) const;
-    void keep_asked_way(const RecordedProgram& program);
     void note_unknown(JobLog& job, const std::vector<std::string>& motors, JobMoves& moves) const;
-    void note_skew(MotorSkewMeter& skew);
     void note_moves(JobLog& job, const JobMoves& moves);
     void note_move(JobLog& job, MoveLog move);
 
@@ -70,19 +63,10 @@ private:
     MoveMeter moves_{[this](std::size_t job, MoveMeter::Measured& measured) {
                          note_unknown(analysis_.jobs[job], measured.motors, measured.moves);
                          note_moves(analysis_.jobs[job], measured.moves);
-                         note_skew(measured.skew);
+                         measured.skew.add_to(analysis_.motor_skew);
                      },
                      options_.keeps_curves()};
-    /// Of an analog output of a machine with axes X and Y.
-    struct PowerLog {
-        OutputConfig output;
-        PowerMeter meter;
-        PowerGrid asked;
-    };
-    void begin_powers();
-    PowerMap finish_power(PowerLog& power) const;
-
-    std::vector<PowerLog> powers_;
+    PowerLogs powers_;
     std::optional<AxisMeter> axes_;  // unless the motors are the axes
     std::string config_text_;        // of the configuration that was read last
     struct WaitingLate {
@@ -99,7 +83,6 @@ private:
     Analysis analysis_;
     RecordedJob latest_program_;  // the job with the latest program
     std::size_t moves_kept_ = 0;
-    std::size_t asked_points_ = 0;
 };
 
 }  // namespace lockstep::analysis

@@ -72,6 +72,13 @@ const std::vector<MotorSkew>& MotorSkewMeter::finish() {
     return skews_;
 }
 
+void MotorSkewMeter::add_to(std::vector<MotorSkew>& all) {
+    for (const MotorSkew& of : finish()) {
+        const auto known = std::ranges::find(all, of.axis, &MotorSkew::axis);
+        if (known != all.end()) { known->add(of); }
+    }
+}
+
 void MotorSkewMeter::note(std::optional<double> MotorSkew::*figure) {
     for (std::size_t i = 0; i < skews_.size(); ++i) { skews_[i].*figure = std::max(skews_[i].*figure, now_mm(i)); }
 }

@@ -44,6 +44,8 @@ public:
     void take(const MergedSteps& steps, std::span<const std::optional<std::size_t>> motor_of_lane, Tick until);
     /// Call once, at the end of the job.
     const std::vector<MotorSkew>& finish();
+    /// Ends it, and adds its figures to those of the same axes.
+    void add_to(std::vector<MotorSkew>& all);
 
 private:
     struct Motor {
