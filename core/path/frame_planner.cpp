@@ -17,6 +17,106 @@ Piece cut_front(Piece& piece, Ticks ticks) {
 double as_double(Ticks t) { return static_cast<double>(t.value); }
 Ticks rounded_up(double ticks) { return {static_cast<std::int64_t>(std::ceil(ticks - 0x1p-20))}; }
 
+Ticks end_of_frame(const TimedPath& path, Ticks most) {
+    return std::min(most, std::max(rounded_up(path.end()), Ticks{1}));
+}
+
+void note_places(PathFrame& frame, const TimedPath& path, const PathTrail& trail) {
+    const double part = as_double(frame.ticks) / static_cast<double>(frame.places.size());
+    for (std::size_t k = 0; k < frame.places.size(); ++k) {
+        frame.places[k] = trail.place_of(path.spot_at(part * static_cast<double>(k)));
+    }
+    frame.begin = frame.places[0];
+}
+
+/// Notes the moves that begin in the first `ticks` of the path.
+void note_begins(const TimedPath& path, Ticks ticks, const PathTrail& trail, std::vector<MoveBegin>& begins) {
+    constexpr double kHair_mm = 1e-9;
+    begins.clear();
+    for (const PathPhase& phase : path.phases()) {
+        const double from = std::max(phase.begin, 0.0);
+        const double to = std::min(phase.end(), as_double(ticks));
+        if (to < from) { continue; }
+        trail.each_begin(phase.origin.piece, [&](double on_geometry, std::uint32_t block) {
+            const double u = on_geometry - phase.origin.u;
+            const double most = phase.shape->is_aside ? 0 : phase.along(to);
+            const bool is_in = u >= phase.along(from) - kHair_mm && u <= most + kHair_mm;
+            if (is_in) { begins.push_back({block, std::clamp(phase.time_at(u), from, to)}); }
+        });
+    }
+}
+
+/// Boards rest as long as the motors move, because their outputs change meanwhile.
+void rest_boards(PathFrame& frame, std::size_t motors) {
+    const AxisTrack& motor = frame.axes.front();
+    for (std::size_t i = motors; i < frame.axes.size(); ++i) {
+        AxisTrack& board = frame.axes[i];
+        board = {};
+        for (const Piece& piece : motor.body) { board.body.append({piece.ticks, {}, {}}); }
+        for (const Piece& piece : motor.tail) { board.tail.append({piece.ticks, {}, {}}); }
+    }
+}
+
+/// A straight interval can be left anywhere. A curved one is finished as planned, because the limits are those of its
+/// middle. A rest is finished too, but the speed behind it is still free. When braking, any interval is left. The
+/// interval numbers of the tail may be those before a change of the overrides.
+FrameCursor cursor_at(const TimedPath& path, const SpeedWindow& window, Ticks t, bool is_braking) {
+    const double at = as_double(t);
+    const auto& passages = path.passages();
+    std::size_t m = passages.size() - 1;
+    while (m > 0 && passages[m].begin > at) { --m; }
+    const Passage& passage = passages[m];
+    FrameCursor cursor{.interval = passage.interval, .begin = passage.begin - at, .w0 = passage.w0, .w1 = passage.w1};
+    if (!is_braking) {
+        const IntervalKind kind = window.interval(passage.interval).kind;
+        if (kind == IntervalKind::Rest) { cursor.w1.reset(); }
+        if (kind != IntervalKind::Straight) { return cursor; }
+    }
+    std::size_t k = passage.first_phase;
+    const auto& phases = path.phases();
+    while (k + 1 < phases.size() && phases[k + 1].interval == passage.interval && phases[k].end() <= at) { ++k; }
+    const double speed = phases[k].speed(at);
+    cursor.begin = 0;
+    cursor.w0 = speed * speed;
+    cursor.w1.reset();
+    cursor.u = phases[k].along(at);
+    if (is_braking) { cursor.interval = window.interval_at(phases[k].piece, cursor.u); }
+    return cursor;
+}
+
+/// Traces the tail from the cursor on: the interval in progress as planned, the others as slowly as possible.
+void trace_tail(const FrameCursor& from, const SpeedWindow& window, TimedPath& tail) {
+    tail.begin(from.begin);
+    double w0 = from.w0;
+    for (std::size_t k = from.interval; k < window.end(); ++k) {
+        Interval part = window.interval(k);
+        if (part.kind == IntervalKind::Rest) { break; }
+        const Quadratic& shape = window.shape_of(part);
+        if (k == from.interval && !from.w1) { part.from = from.u; }
+        const bool is_under_way = k == from.interval && from.w1;
+        const double w1 = is_under_way ? *from.w1 : window.bounds(part).least_after(w0);
+        if (w1 <= 0) {
+            tail.brake(shape, part, k, w0, w1);
+            break;
+        }
+        tail.pass(shape, part, k, w0, w1);
+        w0 = w1;
+    }
+    tail.rest();
+}
+
+/// Notes what outputs need of the tail.
+void note_tail(PathFrame& frame, const TimedPath& tail, const PathSetup& setup, const PathTrail& trail,
+               std::vector<MoveBegin>& begins) {
+    begins.clear();
+    frame.tail_speeds.clear();
+    if (frame.last || !setup.has_outputs) { return; }
+    Ticks length;
+    for (const AxisTrack& track : frame.axes) { length = std::max(length, total_ticks(track.tail)); }
+    note_begins(tail, length, trail, begins);
+    if (setup.tells_speeds) { list_speeds(tail, length, frame.tail_speeds); }
+}
+
 }  // namespace
 
 FramePlanner::FramePlanner(const FramePlanner& other, const PathSetup& setup, SpeedWindow& window,
@@ -34,8 +134,7 @@ FramePlanner::FramePlanner(const FramePlanner& other, const PathSetup& setup, Sp
       has_begun_(other.has_begun_),
       has_made_(other.has_made_),
       is_done_(other.is_done_),
-      slowed_(other.slowed_),
-      braked_(other.braked_) {}
+      counts_(other.counts_) {}
 
 void FramePlanner::begin(std::span<const Position> at) {
     at_ = {};
@@ -66,10 +165,6 @@ bool FramePlanner::trace() {
     return true;
 }
 
-Ticks FramePlanner::end_of_frame() const {
-    return std::min(setup_.frame_ticks, std::max(rounded_up(path_.end()), Ticks{1}));
-}
-
 /// Returns false if nothing of the path is known yet, or if it has no length.
 bool FramePlanner::start() {
     if (has_begun_) { return true; }
@@ -85,47 +180,11 @@ bool FramePlanner::start() {
 
 bool FramePlanner::is_ready() { return !is_done_ && start() && trace(); }
 
-void FramePlanner::note_places(PathFrame& frame, const TimedPath& path) const {
-    const double part = as_double(frame.ticks) / static_cast<double>(frame.places.size());
-    for (std::size_t k = 0; k < frame.places.size(); ++k) {
-        frame.places[k] = trail_.place_of(path.spot_at(part * static_cast<double>(k)));
-    }
-    frame.begin = frame.places[0];
-}
-
-/// Notes the moves that begin in the first `ticks` of the path.
-void FramePlanner::note_begins(const TimedPath& path, Ticks ticks, std::vector<MoveBegin>& begins) const {
-    constexpr double kHair_mm = 1e-9;
-    begins.clear();
-    for (const PathPhase& phase : path.phases()) {
-        const double from = std::max(phase.begin, 0.0);
-        const double to = std::min(phase.end(), as_double(ticks));
-        if (to < from) { continue; }
-        trail_.each_begin(phase.origin.piece, [&](double on_geometry, std::uint32_t block) {
-            const double u = on_geometry - phase.origin.u;
-            const double most = phase.shape->is_aside ? 0 : phase.along(to);
-            const bool is_in = u >= phase.along(from) - kHair_mm && u <= most + kHair_mm;
-            if (is_in) { begins.push_back({block, std::clamp(phase.time_at(u), from, to)}); }
-        });
-    }
-}
-
-/// Notes what outputs need of the tail.
-void FramePlanner::note_tail(PathFrame& frame, const TimedPath& tail) {
-    tail_begins_.clear();
-    frame.tail_speeds.clear();
-    if (frame.last || !setup_.has_outputs) { return; }
-    Ticks length;
-    for (const AxisTrack& track : frame.axes) { length = std::max(length, total_ticks(track.tail)); }
-    note_begins(tail, length, tail_begins_);
-    if (setup_.tells_speeds) { list_speeds(tail, length, frame.tail_speeds); }
-}
-
-std::optional<FitFailure> FramePlanner::fit(PathFrame& frame, Cursor& behind, FrameRoom* room) {
+std::optional<FitFailure> FramePlanner::fit(PathFrame& frame, FrameCursor& behind, FrameRoom* room) {
     if (auto failure = fit_body(frame, behind)) { return failure; }
     if (!frame.last && !fit_tail(frame, behind)) { return FitFailure{frame.ticks, false}; }
-    note_begins(path_, frame.ticks, begins_);
-    note_tail(frame, tail_);
+    note_begins(path_, frame.ticks, trail_, begins_);
+    note_tail(frame, tail_, setup_, trail_, tail_begins_);
     const bool fits = room == nullptr || room->has_room(begins_, tail_begins_, frame.last);
     return fits ? std::nullopt : std::optional(FitFailure{frame.ticks, true});
 }
@@ -135,13 +194,13 @@ std::expected<const PathFrame*, PathStuck> FramePlanner::next(FrameRoom* room) {
     PathFrame& frame = made_;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         if (!trace()) { return nullptr; }
-        frame.ticks = end_of_frame();
+        frame.ticks = end_of_frame(path_, setup_.frame_ticks);
         frame.last = window_.is_finished() && path_.passages().back().interval + 1 == window_.end() &&
                      rounded_up(path_.end()) <= frame.ticks;
-        Cursor behind;
+        FrameCursor behind;
         const std::optional<FitFailure> failure = fit(frame, behind, room);
         if (!failure) {
-            note_places(frame, path_);
+            note_places(frame, path_, trail_);
             if (setup_.tells_speeds) { list_speeds(path_, frame.ticks, frame.speeds); }
             frame.rest = place_of_rest(frame, behind);
             take(behind);
@@ -163,10 +222,10 @@ void FramePlanner::brake() {
     PathFrame& frame = last_;
     frame.ticks = setup_.frame_ticks;
     frame.last = false;
-    note_places(frame, held_tail_);
-    note_begins(held_tail_, frame.ticks, begins_);
+    note_places(frame, held_tail_, trail_);
+    note_begins(held_tail_, frame.ticks, trail_, begins_);
     if (setup_.tells_speeds) { list_speeds(held_tail_, frame.ticks, frame.speeds); }
-    Cursor behind = cursor_at(held_tail_, frame.ticks, true);
+    FrameCursor behind = cursor_at(held_tail_, window_, frame.ticks, true);
     for (std::size_t i = 0; i < setup_.motors(); ++i) {
         AxisTrack& track = frame.axes[i];
         track.from = at_.points[i].position;
@@ -184,14 +243,14 @@ void FramePlanner::brake() {
                   FaultCode::None,
               "a tail keeps the limits");
     }
-    rest_boards(frame);
+    rest_boards(frame, setup_.motors());
     held_tail_.shift(frame.ticks);
-    note_tail(frame, held_tail_);
-    ++braked_;
+    note_tail(frame, held_tail_, setup_, trail_, tail_begins_);
+    ++counts_.braked;
     take(behind);
 }
 
-std::optional<FitFailure> FramePlanner::fit_body(PathFrame& frame, Cursor& next) {
+std::optional<FitFailure> FramePlanner::fit_body(PathFrame& frame, FrameCursor& next) {
     auto points = at_.points;
     frame.axes.resize(setup_.motors() + setup_.boards);
     for (std::size_t i = 0; i < setup_.motors(); ++i) {
@@ -205,73 +264,14 @@ std::optional<FitFailure> FramePlanner::fit_body(PathFrame& frame, Cursor& next)
         for (const Piece& piece : fit_.pieces(i)) { frame.axes[i].body.append(piece); }
         if (frame.last && !may_rest(points[i], setup_.limits[i])) { return FitFailure{frame.ticks}; }
     }
-    rest_boards(frame);
-    next = frame.last ? Cursor{.interval = window_.end()} : cursor_at(path_, frame.ticks, false);
+    rest_boards(frame, setup_.motors());
+    next = frame.last ? FrameCursor{.interval = window_.end()} : cursor_at(path_, window_, frame.ticks, false);
     next.points = points;
     return std::nullopt;
 }
 
-/// Boards rest as long as the motors move, because their outputs change meanwhile.
-void FramePlanner::rest_boards(PathFrame& frame) const {
-    const AxisTrack& motor = frame.axes.front();
-    for (std::size_t i = setup_.motors(); i < frame.axes.size(); ++i) {
-        AxisTrack& board = frame.axes[i];
-        board = {};
-        for (const Piece& piece : motor.body) { board.body.append({piece.ticks, {}, {}}); }
-        for (const Piece& piece : motor.tail) { board.tail.append({piece.ticks, {}, {}}); }
-    }
-}
-
-/// A straight interval can be left anywhere. A curved one is finished as planned, because the limits are those of its
-/// middle. A rest is finished too, but the speed behind it is still free. When braking, any interval is left. The
-/// interval numbers of the tail may be those before a change of the overrides.
-FramePlanner::Cursor FramePlanner::cursor_at(const TimedPath& path, Ticks t, bool is_braking) const {
-    const double at = as_double(t);
-    const auto& passages = path.passages();
-    std::size_t m = passages.size() - 1;
-    while (m > 0 && passages[m].begin > at) { --m; }
-    const Passage& passage = passages[m];
-    Cursor cursor{.interval = passage.interval, .begin = passage.begin - at, .w0 = passage.w0, .w1 = passage.w1};
-    if (!is_braking) {
-        const IntervalKind kind = window_.interval(passage.interval).kind;
-        if (kind == IntervalKind::Rest) { cursor.w1.reset(); }
-        if (kind != IntervalKind::Straight) { return cursor; }
-    }
-    std::size_t k = passage.first_phase;
-    const auto& phases = path.phases();
-    while (k + 1 < phases.size() && phases[k + 1].interval == passage.interval && phases[k].end() <= at) { ++k; }
-    const double speed = phases[k].speed(at);
-    cursor.begin = 0;
-    cursor.w0 = speed * speed;
-    cursor.w1.reset();
-    cursor.u = phases[k].along(at);
-    if (is_braking) { cursor.interval = window_.interval_at(phases[k].piece, cursor.u); }
-    return cursor;
-}
-
-/// Traces the tail from the cursor on: the interval in progress as planned, the others as slowly as possible.
-void FramePlanner::trace_tail(const Cursor& from) {
-    tail_.begin(from.begin);
-    double w0 = from.w0;
-    for (std::size_t k = from.interval; k < window_.end(); ++k) {
-        Interval part = window_.interval(k);
-        if (part.kind == IntervalKind::Rest) { break; }
-        const Quadratic& shape = window_.shape_of(part);
-        if (k == from.interval && !from.w1) { part.from = from.u; }
-        const bool is_under_way = k == from.interval && from.w1;
-        const double w1 = is_under_way ? *from.w1 : window_.bounds(part).least_after(w0);
-        if (w1 <= 0) {
-            tail_.brake(shape, part, k, w0, w1);
-            break;
-        }
-        tail_.pass(shape, part, k, w0, w1);
-        w0 = w1;
-    }
-    tail_.rest();
-}
-
-bool FramePlanner::fit_tail(PathFrame& frame, const Cursor& from) {
-    trace_tail(from);
+bool FramePlanner::fit_tail(PathFrame& frame, const FrameCursor& from) {
+    trace_tail(from, window_, tail_);
     const Ticks end = rounded_up(tail_.end());
     if (tail_.phases().empty() || end <= Ticks{}) { return true; }
     auto points = from.points;
@@ -280,13 +280,13 @@ bool FramePlanner::fit_tail(PathFrame& frame, const Cursor& from) {
         for (const Piece& piece : fit_.pieces(i)) { frame.axes[i].tail.append(piece); }
         if (!may_rest(points[i], setup_.limits[i])) { return false; }
     }
-    rest_boards(frame);
+    rest_boards(frame, setup_.motors());
     return true;
 }
 
 /// The tail's end. Without a tail the machine rests at the end of the frame, which is the end of the path, or in a
 /// rest. That rest begins again.
-PathPlace FramePlanner::place_of_rest(const PathFrame& frame, const Cursor& behind) const {
+PathPlace FramePlanner::place_of_rest(const PathFrame& frame, const FrameCursor& behind) const {
     if (frame.last) { return trail_.place_of(path_.end_spot()); }
     if (!tail_.passages().empty()) { return trail_.place_of(tail_.end_spot()); }
     return trail_.place_of({window_.shape_of(window_.interval(behind.interval)).piece, 0});
@@ -295,7 +295,7 @@ PathPlace FramePlanner::place_of_rest(const PathFrame& frame, const Cursor& behi
 /// Lowers the speeds at the nodes before a place, but not below those of the hardest braking from the frame's begin. A
 /// frame that is full before its end is slowed down as a whole, in proportion to the part that is missing.
 void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt) {
-    ++slowed_;
+    ++counts_.slowed;
     is_traced_ = false;
     const double at = as_double(failure.at);
     const double share = at / as_double(ticks);
@@ -343,7 +343,7 @@ OverrideResult FramePlanner::set_overrides(const Overrides& overrides) {
     return result;
 }
 
-void FramePlanner::take(const Cursor& next) {
+void FramePlanner::take(const FrameCursor& next) {
     is_traced_ = false;
     has_made_ = true;
     at_ = next;

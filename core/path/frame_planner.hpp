@@ -47,6 +47,21 @@ struct PathStuck {
     PathPlace at;
 };
 
+struct FrameCounts {
+    std::int64_t slowed = 0;  // frames that had to be made again, slower
+    std::int64_t braked = 0;  // frames that followed the tail of the previous frame
+};
+
+/// Where a frame begins.
+struct FrameCursor {
+    std::size_t interval = 0;
+    double begin = 0;  // of the interval, in ticks from the frame's begin: at most 0
+    double w0 = 0;
+    std::optional<double> w1;  // present if the interval is under way and is finished as planned
+    double u = 0;              // Straight: place where the frame begins
+    StaticVector<MotionPoint, kMaxAxes> points;
+};
+
 class FramePlanner {
 public:
     FramePlanner(const PathSetup& setup, SpeedWindow& window, const PathTrail& trail)
@@ -74,39 +89,19 @@ public:
     void restart() { has_begun_ = is_traced_ = false; }
     /// Applies new overrides from the next node behind the last frame on. Changes nothing unless it returns Taken.
     OverrideResult set_overrides(const Overrides& overrides);
-    /// Frames that had to be made again, slower.
-    std::int64_t slowed() const { return slowed_; }
-    /// Frames that followed the tail of the previous frame.
-    std::int64_t braked() const { return braked_; }
+    const FrameCounts& counts() const { return counts_; }
 
 private:
-    /// Where a frame begins.
-    struct Cursor {
-        std::size_t interval = 0;
-        double begin = 0;  // of the interval, in ticks from the frame's begin: at most 0
-        double w0 = 0;
-        std::optional<double> w1;  // present if the interval is under way and is finished as planned
-        double u = 0;              // Straight: place where the frame begins
-        StaticVector<MotionPoint, kMaxAxes> points;
-    };
-
     bool start();
     bool trace();
-    void note_places(PathFrame& frame, const TimedPath& path) const;
-    void note_begins(const TimedPath& path, Ticks ticks, std::vector<MoveBegin>& begins) const;
-    void note_tail(PathFrame& frame, const TimedPath& tail);
-    std::optional<FitFailure> fit(PathFrame& frame, Cursor& behind, FrameRoom* room);
-    Ticks end_of_frame() const;
-    std::optional<FitFailure> fit_body(PathFrame& frame, Cursor& next);
-    bool fit_tail(PathFrame& frame, const Cursor& from);
-    void rest_boards(PathFrame& frame) const;
-    void trace_tail(const Cursor& from);
-    Cursor cursor_at(const TimedPath& path, Ticks t, bool is_braking) const;
+    std::optional<FitFailure> fit(PathFrame& frame, FrameCursor& behind, FrameRoom* room);
+    std::optional<FitFailure> fit_body(PathFrame& frame, FrameCursor& next);
+    bool fit_tail(PathFrame& frame, const FrameCursor& from);
     void slow_down(const FitFailure& failure, Ticks ticks, int attempt);
     void start_slower(double slower);
     void brake();
-    PathPlace place_of_rest(const PathFrame& frame, const Cursor& behind) const;
-    void take(const Cursor& next);
+    PathPlace place_of_rest(const PathFrame& frame, const FrameCursor& behind) const;
+    void take(const FrameCursor& next);
 
     static constexpr int kAttempts = 16;
     static constexpr double kSlower = 0.7;             // of the square of the speed
@@ -117,7 +112,7 @@ private:
     const PathSetup& setup_;
     SpeedWindow& window_;
     const PathTrail& trail_;
-    Cursor at_;
+    FrameCursor at_;
     TimedPath path_;
     TimedPath tail_;
     TimedPath held_tail_;  // of the last frame; only its times and places are used
@@ -131,8 +126,7 @@ private:
     bool has_begun_ = false;
     bool has_made_ = false;
     bool is_done_ = false;
-    std::int64_t slowed_ = 0;
-    std::int64_t braked_ = 0;
+    FrameCounts counts_;
 };
 
 }  // namespace lockstep

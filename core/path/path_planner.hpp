@@ -56,8 +56,7 @@ public:
     /// The moves that begin in the last frame; valid directly after next() only.
     const std::vector<MoveBegin>& begins() const { return frames_.begins(); }
     const std::vector<MoveBegin>& tail_begins() const { return frames_.tail_begins(); }
-    std::int64_t slowed() const { return frames_.slowed(); }
-    std::int64_t braked() const { return frames_.braked(); }
+    const FrameCounts& counts() const { return frames_.counts(); }
     /// Intervals that wait for their frames. Memory depends on these and on kept().
     std::size_t waiting() const { return window_.end() - window_.first(); }
     /// The place where the path continues has not been read yet.

@@ -141,8 +141,8 @@ inline void drain(PathPlanner& planner, PathRun& run) {
         run.frames.push_back(std::move(**frame));
     }
     run.most_waiting = std::max(run.most_waiting, planner.waiting());
-    run.slowed = planner.slowed();
-    run.braked = planner.braked();
+    run.slowed = planner.counts().slowed;
+    run.braked = planner.counts().braked;
 }
 
 /// Plans the program. Takes frames behind move k if `drains(k)` is true.
