@@ -26,7 +26,7 @@ void come_to_rest(std::size_t number, JobLifecycle& jobs, CoordinatorLoop& loop)
 
 }  // namespace
 
-/// An input that was not known before does not touch anew.
+/// The input has closed since the last look. At the first look no input has.
 bool TouchWatch::touches_anew(std::size_t input, const LoopView& loop) {
     const InputConfig& config = loop.machine.inputs[input];
     const auto motor = motor_named(loop.machine, config.motor);

@@ -52,7 +52,7 @@ void add_home(Verb command) {
     add_take(verb, *options);
     add_live_options(verb, *options);
     verb.footer(
-        "It shows in which part of homing each axis is, the switch that it searches, and for whom it waits.\n"
+        "For each axis it shows the part of homing, the switch, and the axes for which it waits.\n"
         "Ctrl-C, a closed terminal (SIGHUP), lockstep stop and lockstep hold end homing at rest: axes without\n"
         "their zero stay unhomed. With --detach, or under nohup, homing continues by itself.\n" +
         footer("  lockstep home\n  lockstep home X Y\n"));

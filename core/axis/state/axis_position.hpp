@@ -36,7 +36,7 @@ public:
     void assume_zero(std::int64_t zero_count);
     /// The motor pushes its slide in the direction of its homing.
     void set_zero(std::int64_t zero_count, const DeviceStatus& device);
-    /// What the device has run: the play of the backlash follows.
+    /// The device has run these tracks: the play follows them.
     void follow(const ReusedVector<ExecutedTrack>& tracks) {
         for (const ExecutedTrack& track : tracks) { play_.follow(track); }
     }

@@ -20,7 +20,7 @@ public:
     /// The device has run this.
     void follow(const ExecutedTrack& track);
     std::int64_t steps() const { return play_.steps(); }
-    /// At the device's count. What it has run since the last track counts as one motion.
+    /// The play at this count of the device. Its motion since the last track is taken to have one direction.
     std::int64_t at(std::int64_t count) const {
         Play now = play_;
         now.follow(count - count_);
