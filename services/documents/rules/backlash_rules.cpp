@@ -8,6 +8,7 @@
 #include "services/documents/problem_list.hpp"
 #include "services/documents/rules/axis_ranges.hpp"
 #include "services/documents/rules/delta_rules.hpp"
+#include "services/documents/rules/each_motor.hpp"
 
 namespace lockstep {
 namespace {
@@ -95,16 +96,7 @@ private:
 }  // namespace
 
 std::vector<Problem> backlash_problems(const MachineConfig& machine) {
-    std::vector<Problem> found;
-    std::size_t motor = 0;
-    for (std::size_t axis = 0; axis < machine.axes.size(); ++axis) {
-        BacklashRules rules(machine, axis);
-        const std::size_t blocks = machine.axes[axis].motors.size();
-        if (blocks == 0) { rules.check(motor++, std::nullopt); }
-        for (std::size_t k = 0; k < blocks; ++k) { rules.check(motor++, k); }
-        std::ranges::move(rules.take(), std::back_inserter(found));
-    }
-    return found;
+    return problems_of_motors<BacklashRules>(machine);
 }
 
 }  // namespace lockstep
