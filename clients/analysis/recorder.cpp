@@ -30,7 +30,7 @@ AxisCounts plays_in(const RecordedJob& begun, const MachineConfig& machine) {
     return plays;
 }
 
-/// What a probing move found; nullopt if it did not touch, or if its record is damaged.
+/// The places of a touch. Returns nullopt if there was no touch, or if its record is damaged.
 std::optional<Event> touch_of(const RecordedJob& message, const Analysis& analysis) {
     const bool is_touched = message.outcome == "touched";
     if (!is_touched || !analysis.config || !is_countable(message.start_tick)) { return std::nullopt; }

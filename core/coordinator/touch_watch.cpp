@@ -26,8 +26,8 @@ void come_to_rest(std::size_t number, JobLifecycle& jobs, CoordinatorLoop& loop)
 
 }  // namespace
 
-/// The input has closed since the last look. At the first look no input has.
-bool TouchWatch::touches_anew(std::size_t input, const LoopView& loop) {
+/// At the first look no input has just closed.
+bool TouchWatch::has_just_closed(std::size_t input, const LoopView& loop) {
     const InputConfig& config = loop.machine.inputs[input];
     const auto motor = motor_named(loop.machine, config.motor);
     if (!motor || !loop.axes.state(*motor)) { return false; }
@@ -39,7 +39,7 @@ void TouchWatch::look(JobLifecycle& jobs, CoordinatorLoop& loop) {
     were_closed_.resize(loop.machine.inputs.size());
     for (std::size_t i = 0; i < loop.machine.inputs.size(); ++i) {
         const InputConfig& input = loop.machine.inputs[i];
-        if (input.at_touch_in_motion == TouchInMotion::Nothing || !touches_anew(i, loop)) { continue; }
+        if (input.at_touch_in_motion == TouchInMotion::Nothing || !has_just_closed(i, loop)) { continue; }
         const MachineActivity& activity = jobs.activity();
         if (activity.in_motion() && !probes_with(input, activity)) { come_to_rest(i, jobs, loop); }
     }

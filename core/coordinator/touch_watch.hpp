@@ -15,7 +15,7 @@ public:
     void look(JobLifecycle& jobs, CoordinatorLoop& loop);
 
 private:
-    bool touches_anew(std::size_t input, const LoopView& loop);
+    bool has_just_closed(std::size_t input, const LoopView& loop);
 
     std::vector<std::optional<bool>> were_closed_;  // the machine's inputs, at the last look
 };

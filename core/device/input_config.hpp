@@ -56,7 +56,7 @@ inline constexpr std::array kInputUses{
 constexpr const InputUseRow& row_of(InputUse use) { return kInputUses[static_cast<std::size_t>(use)]; }
 constexpr std::string_view name_of(InputUse use) { return row_of(use).name; }
 
-/// What the touch of a probe does while the machine moves without a probing move of it.
+/// The effect of a probe that touches during a motion other than a probing move with it.
 enum class TouchInMotion : std::uint8_t {
     Nothing,
     Hold,   // the machine comes to rest on its path, as with a hold

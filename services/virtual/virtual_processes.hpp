@@ -38,7 +38,7 @@ public:
 
 class VirtualProcesses {
 public:
-    /// What the processes share. All of it must outlive this object.
+    /// All processes use these objects, which must outlive this one.
     struct Surroundings {
         const VirtualOptions& options;
         const std::vector<VirtualObserver*>& observers;

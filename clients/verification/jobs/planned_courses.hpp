@@ -1,5 +1,5 @@
-// What each axis may run after its newest run, by the plan: for steps that a process left without a record of their
-// run.
+// The runs that the plan allows each axis after its newest recorded run. A process that ends may leave steps of these
+// without a record of their run.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// What an axis's process did before the log began: steps and runs of which the log has only a part, or only the end.
+// Steps and runs from before the log began, of which the log has only a part, or only the end.
 // They are not compared. Ticks are in the device's time.
 #pragma once
 
