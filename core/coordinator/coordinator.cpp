@@ -153,7 +153,7 @@ void Coordinator::own(CoordinatorLoop& loop) {
     }
     if (axes_.without_device()) { wait_for_axes(jobs_, loop); }
     watch_.look(axes_, jobs_, loop);
-    commands::hold_for_doors(jobs_, loop);
+    commands::hold_for_inputs(jobs_, loop);
     touch_watch_.look(jobs_, loop);
     inbox_.take_each([&](const Command& command) { answer(command, loop); });
     advance_jogs(jobs_, loop);

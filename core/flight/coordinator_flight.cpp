@@ -22,7 +22,7 @@ std::optional<FlightKind> kind_of(CoordinatorNotice::Kind kind) {
         case Kind::JobContinued: return FlightKind::JobContinued;
         case Kind::UnattendedRunsOn:
         case Kind::UnattendedHeld:
-        case Kind::DoorOpen:
+        case Kind::HeldByInput:
         case Kind::TouchInMotion:
         case Kind::ProgramLate:
         case Kind::ProgramCut: return std::nullopt;

@@ -247,7 +247,7 @@ private:
                     "the client of job {} fell silent; the job is held (unattended_job: BE_HELD); continue: lockstep "
                     "resume",
                     notice.number);
-            case Kind::DoorOpen: {
+            case Kind::HeldByInput: {
                 const InputConfig& input = machine_.inputs[notice.number];
                 const FaultText& refusal = *find_fault(row_of(input.use).refusal);
                 return log_warning("{} closed in motion: {}; the machine comes to rest; {}, then: lockstep resume",

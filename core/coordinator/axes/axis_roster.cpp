@@ -23,10 +23,10 @@ AxisRoster::Arrival AxisRoster::arrival_of(const AxisState& state, Slot now) {
     if (state.stamp > now + rules::kHopSlots || (same && state.stamp < view.state->stamp)) { return Arrival::Ignored; }
     if (same) { return Arrival::SameAxis; }
     if (!view.state) { return Arrival::FirstSeen; }
-    const bool is_older = state.stamp <= view.state->stamp;
-    if (is_older && is_present(state.axis, now)) {
-        return Arrival::Ignored;
-    }  // a state of an earlier process, sent again
+    // A process that was started beside the known one gives up by itself; the known one may stall meanwhile.
+    const bool is_known_heard = now - view.received <= timing_.stall_slots;
+    const bool is_older = state.stamp <= view.state->stamp;  // of an earlier process, sent again
+    if (is_known_heard || (is_older && is_present(state.axis, now))) { return Arrival::Ignored; }
     return view.unconfirmed.again(state.identity, state.stamp) ? Arrival::Replaced : Arrival::Ignored;
 }
 

@@ -22,7 +22,7 @@ public:
         Ignored,    // old, out of order, not of this machine, or of another process that was not confirmed yet
         SameAxis,   // from the known process
         FirstSeen,  // from an axis that was not known
-        Replaced    // from a process that replaces the known one
+        Replaced    // from a process that replaces the known one, which is silent for longer than it may stall
     };
     Arrival arrival_of(const AxisState& state, Slot now);
     /// Keeps a state that is not to be ignored.

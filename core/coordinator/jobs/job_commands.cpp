@@ -400,14 +400,14 @@ void go_on_at_input(JobLifecycle& jobs, CoordinatorLoop& loop) {
     }
 }
 
-void hold_for_doors(JobLifecycle& jobs, CoordinatorLoop& loop) {
+void hold_for_inputs(JobLifecycle& jobs, CoordinatorLoop& loop) {
     const auto input = holding_input(loop.axes);
     if (!input) { return; }
     jobs.cut_inherited(TakeoverDoubt::Interrupted, loop);
     const MachineActivity& activity = jobs.activity();
     const bool goes_on = activity.in_motion() && activity.intent() == Intent::GoOn;
     if (!goes_on && !waits_for_input(activity)) { return; }
-    loop.notice({CoordinatorNotice::Kind::DoorOpen, FaultCode::None, *input});
+    loop.notice({CoordinatorNotice::Kind::HeldByInput, FaultCode::None, *input});
     (void)interrupt(activity.is<activity::OwnMoves>() ? Intent::Stop : Intent::Hold, jobs, loop);
 }
 

@@ -38,7 +38,7 @@ CommandResult carry_out(const Command& command, BeginSteps begin_steps, JobLifec
 void go_on_at_input(JobLifecycle& jobs, CoordinatorLoop& loop);
 /// While an input holds the machine, such as an open door, what moves comes to rest: held as by a client, or stopped if
 /// it cannot be held. A job that waits for an input is held.
-void hold_for_doors(JobLifecycle& jobs, CoordinatorLoop& loop);
+void hold_for_inputs(JobLifecycle& jobs, CoordinatorLoop& loop);
 
 /// The client with the lease fell silent. Its job on a path runs on or is held, as configured.
 void lose_client(Identity client, JobLifecycle& jobs, CoordinatorLoop& loop);

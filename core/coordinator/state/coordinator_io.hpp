@@ -78,7 +78,7 @@ struct CoordinatorNotice {
         ProgramCut,        // the job ended at line `number`, where its known program ends; `fault` says why
         UnattendedRunsOn,  // the client of job `number` fell silent; the job runs on
         UnattendedHeld,    // the client of job `number` fell silent; the job is held
-        DoorOpen,          // a door opened in motion: input `number` of the machine closed
+        HeldByInput,       // input `number` of the machine, which holds it, such as a door, closed in motion
         TouchInMotion      // input `number` of the machine, a probe's, touched in a motion that does not probe
     };
     Kind kind = Kind::Phase;

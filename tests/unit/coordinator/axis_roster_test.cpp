@@ -29,10 +29,14 @@ TEST_F(Roster, IgnoresStatesFromThePastTheFutureAndOfOtherMachines) {
     EXPECT_EQ(axes.arrival_of(state_of(2), slot), Arrival::Ignored);
 }
 
-TEST_F(Roster, TakesAnotherProcessOfAnAxisFromItsSecondStateOn) {
+TEST_F(Roster, TakesAnotherProcessOfAnAxisOnlyOnceTheKnownOneIsSilentForLongerThanItMayStall) {
     receive_all();
     AxisState other = state_of(0);
     other.identity = 99;
+    for (int i = 0; i < machine.timing.stall_slots; ++i) {
+        other.stamp = ++slot;
+        EXPECT_EQ(axes.arrival_of(other, slot), Arrival::Ignored);
+    }
     other.stamp = ++slot;
     EXPECT_EQ(axes.arrival_of(other, slot), Arrival::Ignored);
     other.stamp = ++slot;
