@@ -121,7 +121,7 @@ struct BoardConfig {
 };
 
 /// A board that carries the devices of several motors, which it executes by itself: a motor whose device is
-/// "board:NAME/N" has one of them. It takes part in nothing; its motors do.
+/// "board:NAME/N" has one of them. The board itself takes part in no frame; its motors do.
 struct BoardLinkConfig {
     std::string name;
     std::string link;  // as read_link_name() takes it

@@ -67,7 +67,7 @@ private:
     DeviceClock clock_ = DeviceClock::Host;
     ClockEstimator shown_;  // the device's own clock
     bool changed_ = false;  // the next reading is that of another device
-    /// A reading without doubt, the one that tells most about both clocks now.
+    /// A reading without doubt, the one that bounds both clocks best now.
     struct Agreed {
         Tick own;      // the middle of its interval
         Ticks within;  // of this process's clock

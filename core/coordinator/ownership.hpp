@@ -27,15 +27,15 @@ public:
 
     /// Call it once a slot, after all messages were received. Claims a term above all others when two conditions hold:
     /// it has received no owner for silence_slots, counted from its start at the earliest, and every axis that it
-    /// receives is at rest and receives no owner. Of two coordinators that wait for this the elder claims first. Stands
-    /// down when an axis follows a higher term. While not all axes follow it, it also stands down before a higher claim
-    /// of another, or when all axes that it receives have long received another owner.
+    /// receives is at rest and receives no owner. Of two coordinators that wait for this the older one claims first.
+    /// Stands down when an axis follows a higher term. While not all axes follow it, it also stands down before a
+    /// higher claim of another, or when all axes that it receives have long received another owner.
     Change evaluate(Tick now, Slot slot, std::span<const AxisView> axes);
 
     bool owns() const { return own_.has_value(); }
     /// Its own term if it owns the machine, otherwise the highest number known with its own identity.
     Term term() const { return own_.value_or(Term{known_.value().number, self_}); }
-    /// Every axis reports that it follows this owner. Nothing may be moved before that.
+    /// Whether every axis reports that it follows this owner. Before that the owner moves nothing.
     bool acknowledged(std::span<const AxisView> axes) const;
     /// Some axis has not followed this owner for longer than a single damaged state explains.
     bool lacks_axes(Slot now) const { return lacking_ && now - *lacking_ > rules::kHopSlots; }

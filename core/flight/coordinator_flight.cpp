@@ -71,8 +71,8 @@ void CoordinatorFlight::receive(const CoordinatorInputs& in) {
     for (const Command& command : in.commands) { receive_command(in.now, command); }
 }
 
-/// Notes only the first of equal commands. A client repeats a command until it is answered, a jog while it lasts, and
-/// its request of the lease as long as it is the writer, also between other commands.
+/// Notes only the first of equal commands. A client repeats a command until the answer, a jog for as long as it lasts,
+/// and its request for the lease for as long as it is the writer. Other commands may come in between.
 void CoordinatorFlight::receive_command(Tick now, const Command& command) {
     const LastCommands* known = commands_.find(command.client);
     LastCommands last = known == nullptr ? LastCommands{} : *known;

@@ -191,7 +191,7 @@ void ProgramBuilder::event(const Event& event) {
         case EventKind::ToolChange: return change_tool(event.index);
         case EventKind::ToolNumber: return append(ProgramEvent{.kind = Kind::Tool, .index = event.index});
         case EventKind::SpindleSpeed:
-            if (interpreter_->state().modal.spindle != Turning::Stopped) { spindle(Kind::SpindleSpeed); }
+            if (interpreter_->state().modal.spindle != SpindleDirection::Stopped) { spindle(Kind::SpindleSpeed); }
             return;
         case EventKind::SpindleForward: return spindle(Kind::SpindleForward);
         case EventKind::SpindleReverse: return spindle(Kind::SpindleReverse);

@@ -39,7 +39,7 @@ public:
     void begin(const Modal& modal, std::string message = {}, bool awaits_speed = false) {
         message_ = std::move(message);
         awaits_speed_ = awaits_speed;
-        spindle_turns_ = modal.spindle != Turning::Stopped;
+        spindle_turns_ = modal.spindle != SpindleDirection::Stopped;
         coolant_flows_ = modal.mist || modal.flood;
     }
     /// `interpreter` is at the action's block; it provides the places of words for errors.

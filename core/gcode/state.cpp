@@ -8,7 +8,7 @@
 namespace lockstep::gcode {
 namespace {
 
-void turn(Point& point, double degrees) {
+void rotate(Point& point, double degrees) {
     if (degrees == 0) { return; }
     const double cosine = std::cos(degrees / kDegrees);
     const double sine = std::sin(degrees / kDegrees);
@@ -32,7 +32,7 @@ void set_place(ParameterValues& parameters, int first, const Point& place) {
 Point to_machine(const Offsets& offsets, const Point& program) {
     Point result = program;
     for (std::size_t axis = 0; axis < kAxes; ++axis) { result[axis] += offsets.g92[axis]; }
-    turn(result, offsets.rotation);
+    rotate(result, offsets.rotation);
     for (std::size_t axis = 0; axis < kAxes; ++axis) { result[axis] += offsets.origin[axis] + offsets.tool[axis]; }
     return result;
 }
@@ -40,7 +40,7 @@ Point to_machine(const Offsets& offsets, const Point& program) {
 Point to_program(const Offsets& offsets, const Point& machine) {
     Point result = machine;
     for (std::size_t axis = 0; axis < kAxes; ++axis) { result[axis] -= offsets.origin[axis] + offsets.tool[axis]; }
-    turn(result, -offsets.rotation);
+    rotate(result, -offsets.rotation);
     for (std::size_t axis = 0; axis < kAxes; ++axis) { result[axis] -= offsets.g92[axis]; }
     return result;
 }

@@ -14,11 +14,11 @@ namespace lockstep::gcode {
 
 inline constexpr std::size_t kSystems = 9;  // G54 to G59.3
 
-enum class Plane : std::uint8_t { XY, ZX, YZ };                   // G17 G18 G19
-enum class FeedMode : std::uint8_t { PerMinute, InverseTime };    // G94 G93
-enum class Side : std::uint8_t { None, Left, Right };             // G40 G41 G42
-enum class Turning : std::uint8_t { Stopped, Forward, Reverse };  // M5 M3 M4
-inline constexpr int kNoMotion = -1;                              // after G80, and at the start
+enum class Plane : std::uint8_t { XY, ZX, YZ };                            // G17 G18 G19
+enum class FeedMode : std::uint8_t { PerMinute, InverseTime };             // G94 G93
+enum class Side : std::uint8_t { None, Left, Right };                      // G40 G41 G42
+enum class SpindleDirection : std::uint8_t { Stopped, Forward, Reverse };  // M5 M3 M4
+inline constexpr int kNoMotion = -1;                                       // after G80, and at the start
 
 /// The modes: a word sets them, and they hold for the lines after it.
 struct Modal {
@@ -32,7 +32,7 @@ struct Modal {
     double feed_linear = 0;   // mm/min; 0: none yet
     double feed_turning = 0;  // degrees/min
     double spindle_speed = 0;
-    Turning spindle = Turning::Stopped;
+    SpindleDirection spindle = SpindleDirection::Stopped;
     bool mist = false;
     bool flood = false;
     bool feed_override = true;

@@ -135,7 +135,8 @@ Ticks most_lead(const MachineConfig& machine) {
     return {(machine.slot_ticks() - errors).value / 2};
 }
 
-/// Speeds are accepted with the rounding of their text, so the needs that follow from them leave it out.
+/// The rules accept a speed that exceeds its limit by the rounding of its text. The needs are computed without this
+/// excess.
 DeviceAbilities needs_of(const MachineConfig& machine, const MotorConfig& motor) {
     const double speed = fastest_steps_per_tick(machine, motor) / (1 + kTextRounding);
     const std::size_t frame =

@@ -1,9 +1,9 @@
 // The play between a motor and its slide, and where the slide is within it.
 //
-// A motor that turns back first goes through the play, and then moves its slide. `Play` is the motor's place minus its
+// A motor that reverses first goes through the play, and then moves its slide. `Play` is the motor's place minus its
 // slide's: 0 while the motor pushes in the direction of its homing, and the whole play, with a sign, while it pushes
-// the other way. Each step of the motor changes it until it is at an end, and then moves the slide. So it is a function
-// of the motor's steps since its homing.
+// the other way. Each step of the motor changes it until it is at an end, and then moves the slide. So the play is a
+// function of the motor's steps since its homing.
 #pragma once
 
 #include <algorithm>

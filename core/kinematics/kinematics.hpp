@@ -28,8 +28,8 @@ public:
     const std::vector<MotorConfig>& motors() const { return motors_; }
     std::span<const MotorConfig> moving_motors() const { return std::span(motors_).first(map_.motors()); }
     std::size_t axes() const { return map_.axes(); }
-    /// Each axis is moved by a motor of its own, with the axis's number, limits and steps, without backlash; boards
-    /// follow.
+    /// Whether each axis has one motor, with the axis's number, limits and steps, and no motor has backlash. Boards
+    /// have the numbers after the motors.
     bool is_direct() const { return is_direct_; }
 
     /// Where the motors rest while the axes rest on whole steps: each within half a step of its place.

@@ -32,7 +32,7 @@ struct PathMove {
     std::optional<double> feed_mm_per_tick;  // requested; nullopt: as fast as the axes allow
     PathLimits own;                          // of the lead axis; they keep every axis within its limits
     PathLimits limits;                       // `own`, reduced by feed and frames; planning sets it
-    Ticks dwell;                             // if lead is 0
+    Ticks dwell;                             // of a dwell: lead is 0
     Subticks start;                          // after the path's start
     Profile profile;
 

@@ -43,7 +43,7 @@ struct OutputConfig {
     // Whether it keeps its level. Otherwise it goes off, and on again when a program goes on.
     bool stays_at_interruption = true;  // when motion ends before its path does
     bool stays_at_fault = false;        // and after an emergency stop
-    bool stays_at_silence = false;      // when the device hears nothing from its process
+    bool stays_at_silence = false;      // when the device receives nothing from its process
     bool operator==(const OutputConfig&) const = default;
 
     bool is_analog() const { return pwm.has_value(); }

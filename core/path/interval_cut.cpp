@@ -9,8 +9,8 @@ namespace {
 constexpr double kMost = PieceJoints::kMost;
 constexpr std::size_t kLeastParts = 4;  // of a piece that may be faster than the joints at its ends
 
-/// The angle by which a piece turns over `length`, rad.
-double turn_of(const Quadratic& piece, double length, const PathSetup& setup) {
+/// The angle by which the piece's direction changes over `length`, rad.
+double direction_change(const Quadratic& piece, double length, const PathSetup& setup) {
     double square = 0;
     each_of(piece.moving >> setup.first_axis_row(), [&](std::size_t i) {
         const double bend = piece.bend.begin()[setup.first_axis_row() + i] / setup.steps_per_mm[i];
@@ -44,8 +44,8 @@ Interval IntervalCut::whole(const JoinedPiece& piece, const Neighbours& beside) 
 std::size_t IntervalCut::parts_of(const JoinedPiece& piece, const Neighbours& beside, IntervalBounds& whole) const {
     const double length = piece.shape.length - beside.from;
     const double by_length = length / kMaxInterval_mm;
-    const double by_turn = turn_of(piece.shape, length, setup_) / kMaxTurn;
-    const std::size_t parts = 1 + static_cast<std::size_t>(std::max(by_length, by_turn));
+    const double by_direction = direction_change(piece.shape, length, setup_) / kMaxDirectionChange;
+    const std::size_t parts = 1 + static_cast<std::size_t>(std::max(by_length, by_direction));
     if (parts >= kLeastParts || piece.shape.is_straight) { return std::max(parts, kLeastParts); }
     const double top = whole.cap(overrides_);
     const bool is_slow_at_ends = beside.begin.cap < top && std::min(beside.end.cap, piece.end_cap) < top;

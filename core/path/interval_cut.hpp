@@ -16,7 +16,7 @@ public:
              SlidingVector<Interval>& intervals) const;
 
     static constexpr double kMaxInterval_mm = 0.25;
-    static constexpr double kMaxTurn = 0.06;  // rad within an interval
+    static constexpr double kMaxDirectionChange = 0.06;  // rad within an interval
 
 private:
     static IntervalKind kind_of(const JoinedPiece& piece);

@@ -105,9 +105,9 @@ const PathPhase& PieceFit::phase_at(const FitRange& s) const {
     return phases[k];
 }
 
-/// Whether the axis turns within the piece with more acceleration than the smaller of its limits. A part of such a
+/// Whether the axis reverses within the piece with more acceleration than the smaller of its limits. A part of such a
 /// piece would break a limit, so a tail that contains it could not be cut.
-bool PieceFit::is_hard_turn(std::size_t i, double v0, double a, double ticks) const {
+bool PieceFit::is_hard_reversal(std::size_t i, double v0, double a, double ticks) const {
     const double v1 = v0 + a * ticks;
     const double one_tick = std::abs(a);
     const AxisLimits& axis = setup_.limits[i];
@@ -129,7 +129,7 @@ bool PieceFit::try_piece(Ticks begin, Ticks end, std::span<const MotionPoint> po
         const bool is_near = std::abs(v0 - first.velocity(i, to_double(begin))) <= most &&
                              std::abs(v0 + a * ticks - last.velocity(i, to_double(end))) <= most;
         if (!(is_near && is_close(s, i, points[i].position.as_steps(), v0, a))) { return false; }
-        if (tolerance_ <= 1 && is_hard_turn(i, v0, a, ticks)) { return false; }
+        if (tolerance_ <= 1 && is_hard_reversal(i, v0, a, ticks)) { return false; }
         try_pieces_[i] = solve_piece(points[i].position, to, end - begin, a);
     }
     for (std::size_t i = 0; i < setup_.motors(); ++i) {

@@ -43,7 +43,7 @@ private:
     bool is_close(const FitRange& range, std::size_t axis, double from, double v0, double a) const;
     const PathPhase& phase_at(const FitRange& range) const;
     double acceleration(const FitRange& range, std::size_t axis) const;
-    bool is_hard_turn(std::size_t i, double v0, double a, double ticks) const;
+    bool is_hard_reversal(std::size_t i, double v0, double a, double ticks) const;
     bool try_piece(Ticks begin, Ticks end, std::span<const MotionPoint> points);
     Ticks longest(Ticks now, Ticks limit, std::span<const MotionPoint> points);
     Ticks longest_any(Ticks now, Ticks limit, std::span<const MotionPoint> points);

@@ -88,7 +88,7 @@ void PieceJoints::settle(JoinedPiece& piece, const Neighbours& beside) const {
 }
 
 /// Jumps from and to rest are not counted here. Each piece recovers half of the other jumps at its ends, so that jumps
-/// never add up to more than one. If the piece is too short for that on an axis, the turns of its joints are charged as
+/// never add up to more than one. If the piece is too short for that on an axis, the jumps at its ends are charged as
 /// bend of this axis, spread over the piece.
 void PieceJoints::charge(JoinedPiece& piece, const Neighbours& beside) const {
     const Quadratic* const before = beside.before;
@@ -100,15 +100,15 @@ void PieceJoints::charge(JoinedPiece& piece, const Neighbours& beside) const {
     const bool goes_on = beside.goes_on();
     piece.is_charged = false;
     each_of(piece.rows, [&](std::size_t i) {
-        const double turn0 = follows ? shape.slope_at(i, 0) - before->slope_at(i, before->length) : 0;
-        const double turn1 = goes_on ? next->slope_at(i, 0) - shape.slope_at(i, shape.length) : 0;
-        const double jumps = (turn0 * fast.v0 + turn1 * fast.v1) / 2;
+        const double jump0 = follows ? shape.slope_at(i, 0) - before->slope_at(i, before->length) : 0;
+        const double jump1 = goes_on ? next->slope_at(i, 0) - shape.slope_at(i, shape.length) : 0;
+        const double jumps = (jump0 * fast.v0 + jump1 * fast.v1) / 2;
         const double recovered =
             shape.is_straight ? fast.recovers(shape.slope[i], weaker(setup_.limits[i]), jumps > 0) : 0;
         if (std::abs(jumps) <= recovered) { return; }
         if (!piece.is_charged) { piece.charged = shape.bend; }
         piece.is_charged = true;
-        piece.charged[i] += (turn0 + turn1) / (2 * length);
+        piece.charged[i] += (jump0 + jump1) / (2 * length);
     });
 }
 

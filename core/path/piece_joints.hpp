@@ -1,4 +1,4 @@
-// What the joints of pieces cost.
+// Computes the change of speed at each joint of two pieces, and how much of the limits it uses.
 //
 // At a joint of two pieces each axis's speed jumps by the difference of its slopes times the speed along the path. The
 // jump is at most kJointShare of the start velocity. If joints follow each other faster than the acceleration recovers

@@ -17,7 +17,8 @@ struct StraightPassage {
     StraightPassage(const Interval& part, double w0, double w1);
 };
 
-/// The time in which the square of the speed changes linearly over `mm`, from the speed v0 to v1. 0 if mm is 0 or less.
+/// The time, in ticks, in which the square of the speed changes linearly over `mm`, from v0 to v1, both in mm per tick.
+/// 0 if mm is 0 or less. v0 and v1 are not both 0.
 inline double ticks_over(double mm, double v0, double v1) { return mm > 0 ? 2 * mm / (v0 + v1) : 0; }
 
 /// Constant acceleration along one piece of geometry.

@@ -38,7 +38,7 @@ GcodeLines::GcodeLines(const MachineConfig& machine)
 
 bool GcodeLines::switch_off() {
     const gcode::Modal& modal = session_.state().modal;
-    const bool was_on = modal.spindle != gcode::Turning::Stopped || modal.mist || modal.flood;
+    const bool was_on = modal.spindle != gcode::SpindleDirection::Stopped || modal.mist || modal.flood;
     session_.set_devices({});
     return was_on;
 }

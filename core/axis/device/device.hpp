@@ -40,7 +40,7 @@ struct DeviceStatus {
     AnalogLevels analog{};            // what its analog outputs show
     bool enabled = false;             // the motor is enabled
     bool bad_setup = false;           // the device does not take the setup that it was given
-    bool host_silent = false;         // the device heard no beat for the time of its setup
+    bool host_silent = false;         // the device received no beat for the time of its setup
     bool stopped_by_input = false;    // this run ended, or did not begin, because a stop input is closed
     bool bad_output = false;  // changes of outputs in this run were malformed, and none of their frame's was made
 };

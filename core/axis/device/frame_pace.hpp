@@ -36,7 +36,8 @@ public:
     };
     /// Decides the next frame's body. The following frame continues from its end.
     Retiming body(const Part& part);
-    /// Decides the tail from there. Nothing follows a tail, so it corrects as much of the error as it can.
+    /// Decides the tail behind the last body. No frame follows a tail, so it corrects as much of the error as the
+    /// limits allow.
     Retiming tail(const Part& part) const;
     /// The next part keeps the device's ticks.
     void keep(Ticks ticks) { end_ += ticks; }

@@ -35,8 +35,8 @@ private:
     double bend_;
 };
 
-/// The speed of the motion where two pieces join: the lower one of both, or 0 if the motion turns there. So a tick of
-/// this speed more or less is at most a tick of either piece.
+/// The speed of the motion where two pieces join: the lower one of both, or 0 if the motion reverses there. So a tick
+/// of this speed more or less is at most a tick of either piece.
 double joint_speed(const Piece& before, const Piece& after) {
     const double ends =
         static_cast<double>(before.velocity_after(before.ticks)) + static_cast<double>(before.acceleration.raw) / 2;

@@ -19,7 +19,7 @@ struct Retiming {
     Tick end;         // at least one tick per piece after `start`
     double bend = 0;  // the rate at its end is to that at its start as 1 + bend to 1 - bend
 
-    /// The greatest difference from the same stretch at a constant rate.
+    /// The greatest difference of a tick from the same tick at a constant rate.
     Ticks bow() const;
 };
 

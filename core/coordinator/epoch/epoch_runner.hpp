@@ -12,7 +12,7 @@
 #include "core/coordinator/epoch/frame_history.hpp"
 #include "core/coordinator/epoch/frames_in_flight.hpp"
 #include "core/coordinator/epoch/made_frames.hpp"
-#include "core/coordinator/epoch/override_turn.hpp"
+#include "core/coordinator/epoch/wanted_overrides.hpp"
 #include "core/coordinator/path/frame_source.hpp"
 #include "core/coordinator/path/output_planner.hpp"
 #include "core/machine.hpp"
@@ -44,7 +44,7 @@ public:
     const ReusedVector<Frame>& send(Slot now, std::span<const AxisView> axes);
 
     /// The change to other overrides.
-    OverrideTurn& overrides() { return overrides_; }
+    WantedOverrides& overrides() { return overrides_; }
 
     /// Makes no more frames. Vetoes the lowest frame that no axis can have armed yet, by the state published in slot
     /// `next`.
@@ -109,7 +109,7 @@ private:
     FramesInFlight in_flight_;
     ReusedVector<Frame> to_send_;
     Slot slots_over_ = 0;  // slots since all frames and their tails ended, with a call of `send`
-    OverrideTurn overrides_;
+    WantedOverrides overrides_;
     std::optional<Ending> ending_;
     bool lacked_blocks_ = false;  // when the frame that is due was tried last
     DueEvents due_;

@@ -32,7 +32,7 @@ public:
     void stop(Slot next, FrameNumber newest);
 
     bool is_vetoed_by_axis() const { return received_veto_.has_value(); }
-    /// The lowest of the coordinator's own veto and those received, because each receiver repeats a veto.
+    /// The lowest veto of the coordinator's own and the received ones. Every process repeats the lowest that it knows.
     std::optional<FrameNumber> veto() const { return rules::merge(veto_, received_veto_); }
 
 private:

@@ -1,4 +1,4 @@
-// What the machine does: one of these activities at any time, each with the data that exists only then.
+// The machine's activity. At any time it is exactly one of these, each with the data that exists only during it.
 #pragma once
 
 #include <optional>

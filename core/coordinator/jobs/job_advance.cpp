@@ -44,7 +44,7 @@ void settle_complete(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop
     jobs.follow(std::move(path.task), next, std::move(path.pause), loop);
 }
 
-/// After a touch, the job's line tells where the tool has met something.
+/// After a touch, the job's line is the one at which the tool touched.
 void fail_on_path(const activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, CoordinatorLoop& loop) {
     const MachineFault fault = path.fault;
     const Block* const block = path.task.job.program->block(end.place.block);

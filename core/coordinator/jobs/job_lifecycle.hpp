@@ -38,8 +38,8 @@ public:
     /// Ends the job in motion or held: done or stopped. A job in whose pause it took place waits again, or goes on.
     void end(JobOutcome outcome, CoordinatorLoop& loop);
 
-    /// A fault. In motion, the machine first comes to rest: on the path, or each axis by itself. Later faults change
-    /// nothing until a reset.
+    /// Fails the job, if there is one. A machine in motion first comes to rest: on the path, or each axis by itself.
+    /// Further faults change nothing until a reset.
     void fail(const MachineFault& fault, CoordinatorLoop& loop);
     /// A fault that was found when the machine had come to rest.
     void fail_at_rest(const MachineFault& fault, CoordinatorLoop& loop);

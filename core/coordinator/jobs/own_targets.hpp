@@ -13,8 +13,8 @@ namespace lockstep {
 class OwnTargets {
 public:
     OwnTargets() = default;
-    /// The targets are where a whole program ends, independently of its path. `ticks`: how long each move lasts;
-    /// nullopt: as fast as the axis can. Errors: a move that its axis cannot make, and one of an axis that needs
+    /// The targets are the positions at the end of the program; its path does not matter. `ticks`: how long each move
+    /// lasts; nullopt: as fast as the axis can. Errors: a move that its axis cannot make, and one of an axis that needs
     /// several motors. Each axis's move is planned here, too, so that the client gets the reason.
     static std::expected<OwnTargets, Refusal> plan(const KnownProgram& program, std::optional<Ticks> ticks,
                                                    const LoopView& loop, BeginSteps begin_steps);

@@ -26,8 +26,8 @@ struct PathTask {
     void interrupt(const EpochEnd& end) {
         if (end.ran > 0) { fruitless = 0; }
     }
-    /// Call it after an interruption that nobody asked for. Returns false if too many of them in a row left no frame
-    /// that was run.
+    /// Call it after an interruption without a command. Returns false after three interruptions in a row in which no
+    /// frame was run.
     bool may_try_again(const EpochEnd& end) {
         constexpr int kMaxFruitless = 3;
         fruitless += end.ran == 0 ? 1 : 0;

@@ -10,7 +10,7 @@
 namespace lockstep {
 namespace {
 
-/// The slides, where the machine rests.
+/// The positions of the motors' slides. All motors must rest.
 MotorPositions positions_of(const LoopView& loop) {
     MotorPositions at;
     for (std::size_t i = 0; i < loop.axes.size(); ++i) { at.append(slide_of(*loop.axes.state(i))); }

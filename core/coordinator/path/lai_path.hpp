@@ -47,8 +47,8 @@ std::expected<void, LaiLack> suits_lai_path(const MachineConfig& machine);
 /// Error: the move is slower than one pulse per period. The error is the least feed, mm/s.
 std::expected<void, double> check_lai_move(const PathMove& move, std::int64_t tick_ns);
 
-/// Plans moves as make_move makes them, or the rest of a path planned here, its first move from `along` the lead axis
-/// on. If a hold came within a period, the rest of that period is made first, as a separate move.
+/// Plans the moves that make_move() made. For the rest of a path planned here, the first move begins at `along` on its
+/// lead axis. After a hold within a period, a separate first move completes that period.
 Path plan_lai_path(const std::vector<PathMove>& moves, Displacement along, std::span<const AxisLimits> limits,
                    std::span<const double> steps_per_mm, std::int64_t tick_ns, Ticks least,
                    LaiFollowing following = LaiFollowing::OnTheLine);

@@ -32,7 +32,7 @@ public:
     /// `limits` must outlive it.
     LaiPeriods(std::span<const AxisLimits> limits, std::int64_t tick_ns, LaiFollowing following);
 
-    /// Begins a move of make_move() with a lead.
+    /// Begins a move that make_move() has made, and that has a lead axis.
     void begin(const PathMove& move);
     /// Makes the next period. Returns false behind the last one.
     bool next();

@@ -13,7 +13,7 @@ namespace lockstep {
 
 /// Returns the rapid moves from `here` to `place`, in steps, one number per axis of the machine. If the machine has an
 /// axis Z, it first rises to the higher of the two places, then the other axes move together on a straight line, and Z
-/// sinks last. Every move ends at rest. Moves without a way are left out.
+/// goes down last. Every move ends at rest. Moves of no length are left out.
 Program return_way(const MachineConfig& machine, std::span<const std::int64_t> here,
                    std::span<const std::int64_t> place);
 

@@ -11,7 +11,7 @@ namespace {
 
 enum class RowKind : std::uint8_t { Move, Rapid, Arc, Dwell, Pause, Settle, Event, Probe };
 
-// Several whole numbers are packed into one, which is exact up to 2^53.
+// Several whole numbers are packed into one double, which is exact up to 2^53.
 constexpr std::int64_t kRowKinds = 8;
 constexpr std::int64_t kModes = 4;
 constexpr std::int64_t kAxesMost = 64;

@@ -57,13 +57,13 @@ void BlockTimes::add_arc(const ArcPath& arc, std::pair<std::size_t, std::size_t>
         way.speed_mm_s = std::min(way.speed_mm_s, max_velocity_mm_s_[i] / share);
     }
     std::vector<double> ends = begins;
-    const auto turn = [&](std::vector<double>& direction, double share) {
+    const auto set_direction = [&](std::vector<double>& direction, double share) {
         const auto [x, y] = arc.direction(share);
         direction[first] = in_plane * x;  // NOLINT(clang-analyzer-core.NullDereference): see check
         direction[second] = in_plane * y;
     };
-    turn(begins, 0);
-    turn(ends, 1);
+    set_direction(begins, 0);
+    set_direction(ends, 1);
     add_way(way, begins, std::move(ends));
 }
 

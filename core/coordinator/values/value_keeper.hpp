@@ -50,7 +50,7 @@ public:
     /// Call it when a program or its first part has arrived.
     std::expected<void, ValuesRefusal> accept(std::uint64_t program, const gcode::ProgramValues& values,
                                               Circumstances now);
-    /// Call it when the last part of a program has arrived. `after`: the values that it leaves.
+    /// Call it when the last part of a program has arrived. `after`: the values at the program's end.
     void note_left(std::uint64_t program, const gcode::KeptValues& after);
     void take(const JobEvent& event);
     /// Takes the owner's values while another coordinator owns the machine.

@@ -1,4 +1,4 @@
-// A spline as a curve: its place and its direction at a parameter.
+// Computes the point and the direction of a spline at a parameter.
 #pragma once
 
 #include <cstddef>

@@ -54,11 +54,12 @@ std::vector<Flat> meet(const Track& a, const Track& b) {
 }  // namespace
 
 CornerKind corner_between(const Track& before, const Track& after, Flat corner, double radius) {
-    const double turn = std::atan2(cross(before.direction, after.direction), dot(before.direction, after.direction));
-    if (std::abs(turn) < kLeastCorner) { return CornerKind::Straight; }
-    const bool turns_back = std::abs(turn) > std::numbers::pi - kLeastCorner;
+    const double deflection =
+        std::atan2(cross(before.direction, after.direction), dot(before.direction, after.direction));
+    if (std::abs(deflection) < kLeastCorner) { return CornerKind::Straight; }
+    const bool reverses = std::abs(deflection) > std::numbers::pi - kLeastCorner;
     const bool is_inside =
-        turns_back ? radius * (curvature(before, corner) + curvature(after, corner)) < 0 : radius * turn > 0;
+        reverses ? radius * (curvature(before, corner) + curvature(after, corner)) < 0 : radius * deflection > 0;
     return is_inside ? CornerKind::Inside : CornerKind::Outside;
 }
 

@@ -169,8 +169,8 @@ private:
         context_.emit(Dwell{cycle_.dwell});
         context_.event(EventKind::SpindleStop);
         go(cycle_.retract, 0);
-        context_.event(context_.state.modal.spindle == Turning::Forward ? EventKind::SpindleForward
-                                                                        : EventKind::SpindleReverse);
+        context_.event(context_.state.modal.spindle == SpindleDirection::Forward ? EventKind::SpindleForward
+                                                                                 : EventKind::SpindleReverse);
     }
 
     Context& context_;
@@ -184,7 +184,7 @@ Result canned_cycle(Context& context) {
     if (auto checked = check_cycle(context, cycle.axes); !checked) { return checked; }
     if (auto read = read_words(context, cycle); !read) { return read; }
     if (auto set = set_heights(context, cycle); !set) { return set; }
-    if (context.motion == 860 && context.state.modal.spindle == Turning::Stopped) {
+    if (context.motion == 860 && context.state.modal.spindle == SpindleDirection::Stopped) {
         return context.refuse_motion(" stops the spindle, but the spindle does not turn; write M3 or M4 before it");
     }
     CycleRun(context, cycle).run();

@@ -191,15 +191,15 @@ Result spindle(Context& context) {
     Modal& modal = context.state.modal;
     switch (context.block.code(Group::Spindle)) {
         case 30:
-            modal.spindle = Turning::Forward;
+            modal.spindle = SpindleDirection::Forward;
             context.event(EventKind::SpindleForward);
             break;
         case 40:
-            modal.spindle = Turning::Reverse;
+            modal.spindle = SpindleDirection::Reverse;
             context.event(EventKind::SpindleReverse);
             break;
         case 50:
-            modal.spindle = Turning::Stopped;
+            modal.spindle = SpindleDirection::Stopped;
             context.event(EventKind::SpindleStop);
             break;
         default: break;

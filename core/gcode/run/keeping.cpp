@@ -8,9 +8,9 @@ void restore_spindle(Context& context, const Modal& before) {
     const Modal& now = context.state.modal;
     if (now.spindle_speed != before.spindle_speed) { context.event(EventKind::SpindleSpeed, 0, now.spindle_speed); }
     if (now.spindle == before.spindle) { return; }
-    context.event(now.spindle == Turning::Forward   ? EventKind::SpindleForward
-                  : now.spindle == Turning::Reverse ? EventKind::SpindleReverse
-                                                    : EventKind::SpindleStop);
+    context.event(now.spindle == SpindleDirection::Forward   ? EventKind::SpindleForward
+                  : now.spindle == SpindleDirection::Reverse ? EventKind::SpindleReverse
+                                                             : EventKind::SpindleStop);
 }
 
 void restore_coolant(Context& context, const Modal& before) {

@@ -94,7 +94,7 @@ Result change_tool(Context& context) {
     if (auto checked = context.refuse_compensated(Group::Tool); !checked) { return checked; }
     if (code == 60) {
         state.tool = state.selected_tool;
-        state.modal.spindle = Turning::Stopped;
+        state.modal.spindle = SpindleDirection::Stopped;
         context.event(EventKind::SpindleStop);
         context.event(EventKind::ToolChange, state.tool);
         return {};

@@ -17,11 +17,11 @@ std::string plane_word(gcode::Plane plane) {
     return plane == gcode::Plane::XY ? "G17" : plane == gcode::Plane::ZX ? "G18" : "G19";
 }
 
-std::string spindle_word(gcode::Turning spindle) {
+std::string spindle_word(gcode::SpindleDirection spindle) {
     switch (spindle) {
-        case gcode::Turning::Forward: return "M3";
-        case gcode::Turning::Reverse: return "M4";
-        case gcode::Turning::Stopped: break;
+        case gcode::SpindleDirection::Forward: return "M3";
+        case gcode::SpindleDirection::Reverse: return "M4";
+        case gcode::SpindleDirection::Stopped: break;
     }
     return "M5";
 }

@@ -25,7 +25,7 @@ struct PathPoint {
     double along = 0;         // mm from the polyline's start
     MoveSettings settings;    // of the chord that ends here
     std::uint32_t block = 0;  // of the program, of the chord that ends here
-    double turn = 0;          // 1 - cosine of the angle between the directions on either side
+    double deflection = 0;    // 1 - cosine of the angle between the directions on either side
     bool is_corner = false;
     bool is_end = false;  // a piece ends here
 };

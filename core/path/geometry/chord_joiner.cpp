@@ -8,7 +8,7 @@
 namespace lockstep {
 namespace {
 
-constexpr double kCornerTurn = 0.060627287;  // 1 - cos(0.35)
+constexpr double kCornerDeflection = 0.060627287;  // 1 - cos(0.35)
 constexpr double kShift = 1.0 / 16;
 constexpr double kMostShift = 0.95;  // of the tolerance
 
@@ -62,7 +62,7 @@ void ChordJoiner::finish(const AxisVector& end, PathTrail& out) {
 }
 
 void ChordJoiner::join(bool is_end, PathTrail& out) {
-    measure_turns(is_end);
+    measure_deflections(is_end);
     find_corners(is_end);
     while (start_ + 1 < points_.size()) {
         const Reach limit = reach(is_end);
@@ -91,19 +91,19 @@ void ChordJoiner::mark(std::size_t chords, PathTrail& out) const {
     }
 }
 
-/// Measures the turn of each vertex behind which the path is known for kLook_mm.
-void ChordJoiner::measure_turns(bool is_end) {
+/// Measures the deflection of each vertex behind which the path is known for kLook_mm.
+void ChordJoiner::measure_deflections(bool is_end) {
     for (; measured_ + 1 < points_.size(); ++measured_) {
         const double along = points_[measured_].along;
         if (!is_end && points_.back().along - along < kLook_mm) { return; }
         while (behind_ + 1 < measured_ && along - points_[behind_ + 1].along >= kLook_mm) { ++behind_; }
         ahead_ = std::max(ahead_, measured_ + 1);
         while (ahead_ + 1 < points_.size() && points_[ahead_].along - along < kLook_mm) { ++ahead_; }
-        points_[measured_].turn = turn_at(measured_);
+        points_[measured_].deflection = deflection_at(measured_);
     }
 }
 
-double ChordJoiner::turn_at(std::size_t k) const {
+double ChordJoiner::deflection_at(std::size_t k) const {
     const AxisVector& a = points_[behind_].at;
     const AxisVector& b = points_[k].at;
     const AxisVector& c = points_[ahead_].at;
@@ -121,7 +121,7 @@ double ChordJoiner::turn_at(std::size_t k) const {
     return product > 0 ? 1 - dot / std::sqrt(product) : 2;
 }
 
-/// Classifies each vertex for which the turns within kLook_mm behind it are known.
+/// Classifies each vertex for which the deflections within kLook_mm behind it are known.
 void ChordJoiner::find_corners(bool is_end) {
     for (; found_ < measured_; ++found_) {
         if (!is_end && points_[measured_ - 1].along - points_[found_].along < kLook_mm) { return; }
@@ -131,12 +131,12 @@ void ChordJoiner::find_corners(bool is_end) {
 
 bool ChordJoiner::is_corner(std::size_t k) const {
     const PathPoint& point = points_[k];
-    if (point.turn <= kCornerTurn) { return false; }
+    if (point.deflection <= kCornerDeflection) { return false; }
     for (std::size_t j = k - 1; j >= 1 && point.along - points_[j].along < kLook_mm; --j) {
-        if (points_[j].turn >= point.turn) { return false; }
+        if (points_[j].deflection >= point.deflection) { return false; }
     }
     for (std::size_t j = k + 1; j < measured_ && points_[j].along - point.along < kLook_mm; ++j) {
-        if (points_[j].turn > point.turn) { return false; }
+        if (points_[j].deflection > point.deflection) { return false; }
     }
     return true;
 }
@@ -170,9 +170,9 @@ bool ChordJoiner::try_chords(std::size_t chords, Quadratic& best) {
 bool ChordJoiner::is_within_travel(const Quadratic& piece) const {
     for (AxisSet axes = moving_; axes != 0; axes &= axes - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(axes));
-        const double turn = piece.bend[i] == 0 ? 0 : piece.length / 2 - piece.slope[i] / piece.bend[i];
+        const double extreme = piece.bend[i] == 0 ? 0 : piece.length / 2 - piece.slope[i] / piece.bend[i];
         const TravelEnds travel = travel_ends_of(setup_.limits_of_axis(i));
-        for (const double u : {std::clamp(turn, 0.0, piece.length), piece.length}) {
+        for (const double u : {std::clamp(extreme, 0.0, piece.length), piece.length}) {
             const double at = piece.place(i, u);
             if (at < travel.least || at > travel.greatest) { return false; }
         }
@@ -222,9 +222,9 @@ AxisVector ChordJoiner::end_at(std::size_t k) const {
     const double shift = kShift * std::min(before, after);
     double* const to = at.begin();
     each_of(moving_, [&](std::size_t i) {
-        const double turn = (next.at.begin()[i] - to[i]) / after - (to[i] - last.at.begin()[i]) / before;
+        const double deflection = (next.at.begin()[i] - to[i]) / after - (to[i] - last.at.begin()[i]) / before;
         const double most = kMostShift * tolerance_steps_[i];
-        to[i] += std::clamp(shift * turn, -most, most);
+        to[i] += std::clamp(shift * deflection, -most, most);
     });
     return at;
 }

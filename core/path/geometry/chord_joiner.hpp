@@ -47,9 +47,9 @@ private:
         bool is_decided = false;  // more points would not change it
     };
 
-    void measure_turns(bool is_end);
+    void measure_deflections(bool is_end);
     void find_corners(bool is_end);
-    double turn_at(std::size_t k) const;
+    double deflection_at(std::size_t k) const;
     bool is_corner(std::size_t k) const;
     Reach reach(bool is_end);
     void join(bool is_end, PathTrail& out);
@@ -75,7 +75,7 @@ private:
     bool is_fit_begun_ = false;            // for start_
     std::size_t measured_ = 1;             // the first vertex with a turn that is not measured yet
     std::size_t found_ = 1;                // the first vertex that is not classified yet: corner or not
-    std::size_t behind_ = 0;               // turn_at: the last vertex that is kLook_mm or more behind
+    std::size_t behind_ = 0;               // deflection_at: the last vertex that is kLook_mm or more behind
     std::size_t ahead_ = 0;
     std::size_t scanned_ = 0;  // reach: no end of a piece is between start_ and it
     std::size_t guess_ = 1;    // chords: the length of the last piece

@@ -1,4 +1,4 @@
-// The geometry of a stream, in order, and the places of the program's moves on it.
+// The pieces of geometry of a stream of moves, in order, and the places of these moves on them.
 //
 // A PathPlace names a move by its block; `along` is the distance along this move in 2^-64 mm. Pieces and places depend
 // on the program only, so a place leads to the same spot in every planner that gets the same moves.

@@ -1,4 +1,4 @@
-// The overrides that an epoch shall turn to, until its source has planned with them.
+// The overrides that an epoch shall change to, until its source has planned with them.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace lockstep {
 
-class OverrideTurn {
+class WantedOverrides {
 public:
     /// New overrides, which hold after frame `behind`.
     struct Change {
