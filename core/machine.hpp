@@ -34,7 +34,7 @@ struct HomingConfig {
     double park_mm = 0;                // where the axis waits after homing
 };
 
-/// What a motor needs of the pins of its device.
+/// The times and polarities that a motor needs of its device's pins.
 struct PinsConfig {
     double step_width_us = 0;  // and least time to the next pulse; 0: as the device makes it by itself
     double direction_setup_us = 0;
@@ -235,7 +235,7 @@ struct WebConfig {
     bool operator==(const WebConfig&) const = default;
 };
 
-/// What happens to a job on a path whose client falls silent.
+/// The fate of a job on a path whose client falls silent.
 enum class UnattendedJob : std::uint8_t { RunsOn, IsHeld };
 
 struct MachineConfig {

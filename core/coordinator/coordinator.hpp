@@ -30,7 +30,7 @@ public:
     CoordinatorOutputs& step(const CoordinatorInputs& inputs);
 
     MachinePhase phase() const { return jobs_.activity().phase(); }
-    /// What the machine does.
+    /// The machine's present activity.
     const MachineActivity& activity() const { return jobs_.activity(); }
     bool owns_machine() const { return ownership_.owns(); }
     const WriterLease& lease() const { return lease_; }

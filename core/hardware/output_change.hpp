@@ -19,7 +19,7 @@ inline constexpr std::size_t kMostInputs = 32;
 /// Full scale of an analog output. Its value is a whole number of 2^-62 of this.
 inline constexpr std::int64_t kFullScale = std::int64_t{1} << 62;
 
-/// What the analog outputs of a device show, by channel, as it reports them: in 2^-15 of full scale.
+/// The values of a device's analog outputs, by channel, as it reports them: in 2^-15 of full scale.
 using AnalogLevels = std::array<std::uint16_t, kMostAnalogOutputs>;
 inline constexpr std::uint16_t kFullAnalogLevel = std::uint16_t{1} << 15;
 constexpr std::uint16_t analog_level(std::int64_t value) { return static_cast<std::uint16_t>(value >> 47); }

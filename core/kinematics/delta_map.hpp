@@ -27,7 +27,7 @@ public:
         double y_mm = 0;
         double rod_mm = 0;
     };
-    /// What a travel demands of a carriage.
+    /// The range that a carriage needs for a travel.
     struct Reach {
         double furthest_mm = 0;  // from the tower, in the plane
         double lowest_mm = 0;    // heights

@@ -94,7 +94,7 @@ MotorConfig motor_of_board(const BoardConfig& board) {
     return motor;
 }
 
-/// What the axes demand of a motor: the sum of the shares of their limits.
+/// The motor's limit by its axes: the sum of the shares of their limits.
 template <typename Limit>
 double demand(const MachineConfig& machine, std::span<const double> shares, Limit limit) {
     double sum = 0;
@@ -197,7 +197,7 @@ void set_carriage(MotorConfig& motor, const MotorBlock* block, const MachineConf
     motor.plant.max_torque_accel_mm_s2 += bend_mm_s2;
 }
 
-/// What the configuration gives of a motor's screw: its own, or its axis's.
+/// The configured points of a motor's screw: its own, or its axis's.
 const std::vector<ScrewPoint>& screw_of(const AxisConfig& axis, const MotorBlock* block) {
     return block == nullptr || block->screw.empty() ? axis.screw : block->screw;
 }
@@ -212,7 +212,7 @@ Screw screw_of(const std::vector<ScrewPoint>& points, double share, double unit)
     return Screw(errors);
 }
 
-/// What the configuration gives of a motor's backlash: its own, or its axis's.
+/// The configured backlash of a motor: its own, or its axis's.
 const std::optional<BacklashConfig>& backlash_of(const AxisConfig& axis, const MotorBlock* block) {
     return block == nullptr || !block->backlash ? axis.backlash : block->backlash;
 }

@@ -16,7 +16,7 @@ struct RanadeParameters {
     double tick_s = 1e-6;
 };
 
-/// What the engine executes, from rest on a whole step. Returns the errors of ranade().
+/// The pieces that the engine executes, from rest on a whole step. Returns the errors of ranade().
 std::expected<std::vector<Piece>, StepError> ranade_pieces(const StepMove& move,
                                                            const RanadeParameters& parameters = {});
 

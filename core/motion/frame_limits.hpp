@@ -26,7 +26,7 @@ namespace lockstep {
 AxisLimits frame_limits_of(const MachineConfig& machine, std::size_t motor);
 /// The same limits of all motors, in the order of motors_of.
 std::vector<AxisLimits> frame_limits_of(const MachineConfig& machine);
-/// What the machine's file allows the axes themselves, with reserves if a motor estimates a clock.
+/// The limits of the axes themselves by the machine's file, with reserves if a motor estimates a clock.
 std::vector<AxisLimits> axis_frame_limits_of(const MachineConfig& machine);
 
 }  // namespace lockstep

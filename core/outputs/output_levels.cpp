@@ -9,7 +9,7 @@ namespace {
 
 bool turns(const ProgramDevices& devices) { return devices.spindle != ProgramDevices::Spindle::Stopped; }
 
-/// What S or the E number of M67 says, in the unit of full_scale.
+/// The value of S, or of the E number of M67, in the unit of full_scale.
 double commanded(const OutputConfig& output, const ProgramDevices& devices) {
     if (output.use == OutputUse::Number) { return devices.analog_output(output.number); }
     return turns(devices) ? devices.spindle_rpm : 0;

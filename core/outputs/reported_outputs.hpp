@@ -1,4 +1,5 @@
-// What devices report of a machine's outputs: their pins, their analog values, and the pulses that they still make.
+// The reports of devices about a machine's outputs: their pins, their analog values, and the pulses that they still
+// make.
 #pragma once
 
 #include <cstdint>

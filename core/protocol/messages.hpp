@@ -299,7 +299,7 @@ struct MachineState {
     std::optional<HeldLease> lease;  // the writer's; empty: every client may give commands
     std::optional<MachinePause> pause;  // of the job; present also while axes are jogged and return in the pause
     std::optional<ProbeResult> probe;
-    // What another coordinator needs to continue the job in motion:
+    // Another coordinator needs these to continue the job in motion:
     JobKind job_kind = JobKind::Run;
     std::optional<std::uint64_t> program;      // Command::program of the job; nullopt: none is in motion
     std::uint32_t events_from = 0;             // the events of the program before this block have been published

@@ -1,4 +1,4 @@
-// What is published of jobs: that they begin, probe and end.
+// The published events of jobs: their begin, their touches and their end.
 #pragma once
 
 #include <optional>

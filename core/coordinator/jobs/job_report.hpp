@@ -1,4 +1,4 @@
-// What the coordinator's state reports of the machine's job.
+// The part of the coordinator's state about the machine's job.
 #pragma once
 
 #include "core/coordinator/jobs/job_lifecycle.hpp"

@@ -4,7 +4,8 @@
 namespace lockstep::gcode {
 namespace {
 
-/// What LinuxCNC refuses, and words that act behind the motion: the program cannot go on before the touch is known.
+/// Refuses what LinuxCNC refuses, and words that act behind the motion: the program cannot go on before the touch is
+/// known.
 Result check_probing(const Context& context, const Point& target) {
     if (context.is_compensated()) {
         return context.refuse_motion(" is not possible while cutter compensation is on; write G40 before it");
