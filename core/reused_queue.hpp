@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/check.hpp"
+
 namespace lockstep {
 
 template <typename T>
@@ -34,8 +36,6 @@ public:
 
     /// Adds a copy as the last element.
     T& push_back(const T& value) { return next() = value; }
-    /// Adds an earlier element, to be overwritten.
-    T& reuse_back() { return next(); }
     /// Adds what `make(old)` returns as the last element. `old` is an earlier element, whose memory it may take.
     template <typename Make>
     T& renew_back(Make&& make) {
@@ -43,16 +43,26 @@ public:
         return place = make(std::move(place));
     }
     void pop_front() {
+        check(!empty(), "an element that is removed is there");
         first_ = place(1);
         --size_;
     }
-    void pop_back() { --size_; }
+    void pop_back() {
+        check(!empty(), "an element that is removed is there");
+        --size_;
+    }
     void clear() { first_ = size_ = 0; }
 
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
-    T& operator[](std::size_t i) { return *items_[place(i)]; }
-    const T& operator[](std::size_t i) const { return *items_[place(i)]; }
+    T& operator[](std::size_t i) {
+        check(i < size_, "an index is below the size");
+        return *items_[place(i)];
+    }
+    const T& operator[](std::size_t i) const {
+        check(i < size_, "an index is below the size");
+        return *items_[place(i)];
+    }
     T& front() { return (*this)[0]; }
     const T& front() const { return (*this)[0]; }
     T& back() { return (*this)[size_ - 1]; }

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/check.hpp"
+
 namespace lockstep {
 
 template <typename T>
@@ -42,8 +44,14 @@ public:
 
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
-    T& operator[](std::size_t i) { return items_[i]; }
-    const T& operator[](std::size_t i) const { return items_[i]; }
+    T& operator[](std::size_t i) {
+        check(i < size_, "an index is below the size");
+        return items_.data()[i];
+    }
+    const T& operator[](std::size_t i) const {
+        check(i < size_, "an index is below the size");
+        return items_.data()[i];
+    }
     T* begin() { return items_.data(); }
     T* end() { return items_.data() + size_; }
     const T* begin() const { return items_.data(); }

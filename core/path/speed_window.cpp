@@ -37,11 +37,7 @@ void SpeedWindow::add(const Quadratic& piece) {
 }
 
 void SpeedWindow::add_rows(const Quadratic& piece) {
-    JoinedPiece& open = pieces_.reuse_back();
-    open.shape = piece;
-    open.shape.moving = moving_rows(piece);
-    open.begin_cap = open.end_cap = JoinedPiece::kNoCap;
-    open.is_charged = false;
+    pieces_.push_back({.shape = piece}).shape.moving = moving_rows(piece);
     if (is_open_) { close_piece(pieces_.size() - 2); }
     is_open_ = true;
     if (is_due()) { look_ahead(); }

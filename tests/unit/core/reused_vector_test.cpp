@@ -49,5 +49,12 @@ TEST(ReusedVector, CopiesAndMovesOnlyWhatIsInUse) {
     EXPECT_TRUE(copy.empty());  // NOLINT(bugprone-use-after-move): it is empty, and may be filled anew
 }
 
+TEST(ReusedVectorDeathTest, AnElementThatIsNotInUseIsAFailedCheck) {
+    ReusedVector<int> numbers{1, 2};
+    numbers.clear();
+    numbers.push_back(3);
+    EXPECT_DEATH(numbers[1], "an index is below the size");
+}
+
 }  // namespace
 }  // namespace lockstep
