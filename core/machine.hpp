@@ -10,6 +10,7 @@
 #include "core/axis_set.hpp"
 #include "core/device/device_name.hpp"
 #include "core/device/input_config.hpp"
+#include "core/device/link_name.hpp"
 #include "core/outputs/output_config.hpp"
 #include "core/protocol/timing.hpp"
 #include "core/unassigned_words.hpp"
@@ -124,7 +125,7 @@ struct BoardConfig {
 /// "board:NAME/N" has one of them. The board itself takes part in no frame; its motors do.
 struct BoardLinkConfig {
     std::string name;
-    std::string link;  // as read_link_name() takes it
+    LinkName link;
     bool operator==(const BoardLinkConfig&) const = default;
 };
 

@@ -162,7 +162,7 @@ Finding rate_device(const MotorConfig& axis, const std::expected<void, std::stri
 
 Finding rate_board(const BoardLinkConfig& board, const std::vector<std::string>& lacks) {
     const std::string what = "board " + board.name;
-    if (lacks.empty()) { return {Rating::Good, what, board.link + " answers, and suits its motors", ""}; }
+    if (lacks.empty()) { return {Rating::Good, what, board.link.text() + " answers, and suits its motors", ""}; }
     return {Rating::Bad, what, fmt::format("{}", fmt::join(lacks, "; ")),
             fmt::format("mend it, then look again: lockstep board check --board {}", board.name)};
 }

@@ -25,6 +25,14 @@ std::optional<LinkName> read_tcp(std::string_view text) {
 
 }  // namespace
 
+std::string LinkName::text() const {
+    switch (kind) {
+        case Kind::Serial: break;
+        case Kind::Tcp: return std::string(kTcp) + place + ":" + std::to_string(port);
+    }
+    return std::string(kSerial) + place;
+}
+
 std::optional<LinkName> read_link_name(std::string_view text) {
     if (text.starts_with(kTcp)) { return read_tcp(text.substr(kTcp.size())); }
     if (!text.starts_with(kSerial)) { return std::nullopt; }

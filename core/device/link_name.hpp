@@ -16,6 +16,9 @@ struct LinkName {
     Kind kind = Kind::Serial;
     std::string place;       // PATH, or ADDRESS: four numbers
     std::uint16_t port = 0;  // of Tcp
+
+    /// As in the machine's file.
+    std::string text() const;
     bool operator==(const LinkName&) const = default;
 };
 

@@ -36,7 +36,7 @@ std::expected<RegisterWindow, std::string> open_window(const DeviceName& device,
 
 std::string link_remedy(const DeviceName& device, const MachineConfig& machine) {
     const auto found = std::ranges::find(machine.board_links, device.place, &BoardLinkConfig::name);
-    const std::string link = found == machine.board_links.end() ? "no link" : found->link;
+    const std::string link = found == machine.board_links.end() ? "no link" : found->link.text();
     return "; check the cable of board " + device.place + ", " + link + ", and its power";
 }
 

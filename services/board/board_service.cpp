@@ -52,8 +52,8 @@ public:
         answered_ = bridge.answers();
         if (!is_new && (answered_ || now - reported_ < kPeriod)) { return; }
         reported_ = now;
-        if (answered_) { return log_info("board {} answers over {}", board_.name, board_.link); }
-        log_warning("board {} does not answer over {}: {}", board_.name, board_.link, bridge.lack());
+        if (answered_) { return log_info("board {} answers over {}", board_.name, board_.link.text()); }
+        log_warning("board {} does not answer over {}: {}", board_.name, board_.link.text(), bridge.lack());
     }
 
 private:
@@ -62,18 +62,18 @@ private:
     std::chrono::nanoseconds reported_ = monotonic_now();
 };
 
-int run(const MachineConfig& machine, const BoardLinkConfig& board, const LinkName& link) {
+int run(const MachineConfig& machine, const BoardLinkConfig& board) {
     StopSignal stop;
     const EndGuard guard(stop);
     for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
     auto windows = make_windows(machine, board.name);
     if (!windows) { return end_with_failure(windows.error()); }
     const std::chrono::microseconds patience{machine.timing.slot_us * rules::silence_slots(machine.timing)};
-    BoardBridge bridge(link, std::move(*windows), patience);
+    BoardBridge bridge(board.link, std::move(*windows), patience);
     BoardReport report(board);
     ServiceManager manager;
     manager.ready(fmt::format("board {} of machine {}", board.name, machine.name));
-    log_info("board {} of machine {} is up, link {}", board.name, machine.name, board.link);
+    log_info("board {} of machine {} is up, link {}", board.name, machine.name, board.link.text());
     while (!stop.requested()) {
         bridge.step();
         report.look(bridge, monotonic_now());
@@ -94,12 +94,10 @@ int serve_board(const BoardOptions& options) {
     if (board == machine.board_links.end()) {
         return end_with_bad_input(options.machine_file + ": no board \"" + options.board + "\" with a link");
     }
-    const auto link = read_link_name(board->link);
-    if (!link) { return end_with_bad_input(options.machine_file + ": no link: " + board->link); }
     if (auto log = open_log({"board", board->name, options.log_file, true}); !log) {
         return end_with_bad_input(log.error());
     }
-    return run(machine, *board, *link);
+    return run(machine, *board);
 }
 
 }  // namespace lockstep

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/device/link_name.hpp"
 #include "services/documents/proto_reader.hpp"
 
 namespace lockstep {
@@ -142,8 +143,17 @@ BoardConfig read_board(const proto::Board& message, const std::string& place, Pr
     return board;
 }
 
+LinkName read_link(const proto::Board& message, const std::string& place, ProtoReader& reader) {
+    auto link = read_link_name(message.link());
+    if (link) { return std::move(*link); }
+    reader.refuse(place + ".link", fmt::format("the link of board {} is \"{}\"; it must be {}, such as "
+                                               "serial:/dev/ttyUSB0",
+                                               message.name(), message.link(), kLinkNames));
+    return {};
+}
+
 BoardLinkConfig read_board_link(const proto::Board& message, const std::string& place, ProtoReader reader) {
-    BoardLinkConfig board{.name = {}, .link = message.link()};
+    BoardLinkConfig board{.name = {}, .link = read_link(message, place, reader)};
     reader.require(message.has_name(), message.name(), board.name, place + ".name");
     if (message.has_host() || message.has_device()) {
         reader.refuse(place + ".link", fmt::format("{0} has a link, so {0}.host and {0}.device have no meaning; remove "

@@ -198,7 +198,7 @@ void write_kinematics(const KinematicsConfig& kinematics, proto::Machine& messag
 
 void write_board_link(const BoardLinkConfig& board, proto::Board& message) {
     message.set_name(board.name);
-    message.set_link(board.link);
+    message.set_link(board.link.text());
 }
 
 void write_board(const BoardConfig& board, proto::Board& message) {

@@ -65,7 +65,7 @@ BoardLook::BoardLook(const MachineConfig& machine, const BoardLinkConfig& board)
     : windows_(shared_windows(machine, board)) {
     if (!windows_.empty()) { return; }
     windows_ = own_windows();
-    bridge_.emplace(read_link_name(board.link).value(), windows_, kMostSilence);
+    bridge_.emplace(board.link, windows_, kMostSilence);
 }
 
 void BoardLook::step() { bridge_ ? bridge_->step() : std::this_thread::sleep_for(1ms); }

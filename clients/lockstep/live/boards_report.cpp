@@ -82,7 +82,7 @@ std::expected<std::vector<BoardLinkConfig>, Failure> boards_of(const MachineConf
 proto::BoardReport board_report(const MachineConfig& machine, const BoardLinkConfig& board) {
     proto::BoardReport report;
     report.set_name(board.name);
-    report.set_link(board.link);
+    report.set_link(board.link.text());
     for (const MotorConfig& motor : motors_of(machine)) {
         if (motor.device.is_of_board(board.name)) { report.add_used_by(motor.name); }
     }
@@ -143,12 +143,12 @@ proto::BoardReport measure_board(const MachineConfig& machine, const BoardLinkCo
 }
 
 std::string why_not_opened(const BoardLinkConfig& board) {
-    const auto link = read_link_name(board.link);
-    if (!link || link->kind != LinkName::Kind::Serial || ::access(link->place.c_str(), R_OK | W_OK) == 0) { return ""; }
+    const LinkName& link = board.link;
+    if (link.kind != LinkName::Kind::Serial || ::access(link.place.c_str(), R_OK | W_OK) == 0) { return ""; }
     const std::string remedy = errno == EACCES
                                    ? "let this user use it: adduser USER dialout, then log in again"
                                    : fmt::format("check the board's cable, and its name in /dev/{}", kByName);
-    return fmt::format("{}: {}; {}", link->place, std::strerror(errno), remedy);
+    return fmt::format("{}: {}; {}", link.place, std::strerror(errno), remedy);
 }
 
 namespace {
@@ -184,8 +184,8 @@ std::vector<std::string> free_adapters(const MachineConfig& machine, const fs::p
     std::vector<std::string> adapters;
     for (const fs::path& line : serial_lines(devices)) {
         const auto is_named = [&](const BoardLinkConfig& board) {
-            const auto link = read_link_name(board.link);
-            return link && link->kind == LinkName::Kind::Serial && file_behind(link->place) == file_behind(line);
+            const LinkName& link = board.link;
+            return link.kind == LinkName::Kind::Serial && file_behind(link.place) == file_behind(line);
         };
         if (std::ranges::none_of(machine.board_links, is_named)) { adapters.push_back("serial:" + line.string()); }
     }

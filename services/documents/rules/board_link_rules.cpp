@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/device/link_name.hpp"
 #include "core/kinematics/motors.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/names.hpp"
@@ -68,13 +67,10 @@ public:
         problems_.require(
             !is_taken(), at + "name",
             fmt::format("{} names an axis, a motor or another board already; give this board another name", name));
-        problems_.require(read_link_name(board_.link).has_value(), at + "link",
-                          fmt::format("the link of board {} is \"{}\"; it must be {}, such as serial:/dev/ttyUSB0",
-                                      name, board_.link, kLinkNames));
         if (const auto* other = with_same_link()) {
             problems_.require(false, at + "link",
                               fmt::format("link {} of board {} is that of board {} already; a link leads to one board",
-                                          board_.link, name, other->name));
+                                          board_.link.text(), name, other->name));
         }
         problems_.require(is_used(), at + "name",
                           fmt::format("no motor has a device of board {0}; write device: \"board:{0}/0\" in the block "

@@ -221,8 +221,7 @@ int run(const Options& options) {
     const auto& links = loaded->config.board_links;
     const auto board = std::ranges::find(links, options.board, &BoardLinkConfig::name);
     if (board == links.end()) { return end_with_bad_input("no board " + options.board); }
-    const auto name = read_link_name(board->link);
-    const auto listener = listen_at(name->place, name->port);
+    const auto listener = listen_at(board->link.place, board->link.port);
     if (!listener) { return end_with_bad_input(listener.error()); }
     std::FILE* const edges = options.edges.empty() ? nullptr : std::fopen(options.edges.c_str(), "w");
     StopSignal stop;

@@ -39,6 +39,12 @@ TEST(LinkName, IsASerialLineOrATcpConnection) {
     EXPECT_EQ(read_link_name("tcp:127.0.0.1:7001"), (LinkName{LinkName::Kind::Tcp, "127.0.0.1", 7001}));
 }
 
+TEST(LinkName, IsWrittenAsItWasRead) {
+    for (const char* text : {"serial:/dev/ttyUSB0", "tcp:127.0.0.1:7001"}) {
+        EXPECT_EQ(read_link_name(text).value().text(), text);
+    }
+}
+
 TEST(LinkName, RefusesOthers) {
     for (const char* text : {"", "/dev/ttyUSB0", "serial:", "serial:ttyUSB0", "serial:/", "usb:1", "tcp:", "tcp:host:1",
                              "tcp:127.0.0.1", "tcp:127.0.0.1:0", "tcp:127.0.0.1:70000", "tcp::7001"}) {

@@ -26,7 +26,7 @@ TEST(DoctorOnTheInterface, NamesTheProblemAndTheCommandThatCorrectsIt) {
 }
 
 TEST(DoctorOnABoard, NamesAllThatItLacks) {
-    const BoardLinkConfig board{.name = "pico1", .link = "serial:/dev/ttyUSB0"};
+    const BoardLinkConfig board{.name = "pico1", .link = {LinkName::Kind::Serial, "/dev/ttyUSB0"}};
     EXPECT_EQ(rate_board(board, {}).rating, Rating::Good);
     const Finding lacks = rate_board(board, {"its motor 0: too slow", "its motor 1: missing"});
     EXPECT_EQ(lacks.rating, Rating::Bad);

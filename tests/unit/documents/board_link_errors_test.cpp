@@ -59,7 +59,7 @@ TEST(BoardLinks, AreReadAgainAsTheyWereWrittenAndArePartOfTheHash) {
     ASSERT_TRUE(again) << to_text("m", again.error());
     EXPECT_EQ(again->board_links, read->board_links);
     MachineConfig other = *read;
-    other.board_links[0].link = "serial:/dev/ttyUSB1";
+    other.board_links[0].link.place = "/dev/ttyUSB1";
     EXPECT_NE(config_hash(*read), config_hash(other));
 }
 

@@ -27,7 +27,7 @@ protected:
     }
     std::vector<std::string> found(const std::string& link = "") const {
         MachineConfig machine;
-        if (!link.empty()) { machine.board_links.push_back({.name = "pico1", .link = link}); }
+        if (!link.empty()) { machine.board_links.push_back({.name = "pico1", .link = read_link_name(link).value()}); }
         return free_adapters(machine, directory.path());
     }
 

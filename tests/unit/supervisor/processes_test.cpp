@@ -130,7 +130,7 @@ TEST(ServiceLines, WithDevicesOfTheirOwnHaveTheDevicesFirst) {
 
 TEST(ServiceLines, HaveTheBoardOfPlacedMotorsOnceAndFirst) {
     MachineConfig machine = two_axes();
-    machine.board_links = {{.name = "pico1", .link = "tcp:127.0.0.1:7001"}};
+    machine.board_links = {{.name = "pico1", .link = {LinkName::Kind::Tcp, "127.0.0.1", 7001}}};
     for (unsigned n : {0U, 1U}) { machine.axes[n].device = {DeviceName::Kind::Linked, "pico1", n}; }
     const StateDirectory state("mill");
     const auto lines = service_lines(machine, all(), {}, "/opt/bin", state);
