@@ -1,6 +1,7 @@
 #include "services/axis/device_window.hpp"
 
 #include <algorithm>
+#include <source_location>
 
 #include "core/check.hpp"
 #include "sim_fpga/firmware/host/link_words.hpp"
@@ -26,12 +27,13 @@ std::expected<RegisterWindow, std::string> open_board_window(const DeviceName& d
 }  // namespace
 
 std::expected<RegisterWindow, std::string> open_window(const DeviceName& device, const MachineConfig& machine) {
-    check(device.kind != DeviceName::Kind::Simulated, "a device in its axis's process has no window to open");
     switch (device.kind) {
+        case DeviceName::Kind::Simulated: break;
         case DeviceName::Kind::Shared: return RegisterWindow::open_shared(device.place);
+        case DeviceName::Kind::Mapped: return RegisterWindow::open_file(device.place);
         case DeviceName::Kind::Linked: return open_board_window(device, machine);
-        default: return RegisterWindow::open_file(device.place);
     }
+    fail_check("a device in its axis's process has no window to open", std::source_location::current());
 }
 
 std::string link_remedy(const DeviceName& device, const MachineConfig& machine) {

@@ -15,8 +15,14 @@ inline std::string sender_words(Remedy remedy) {
         case Remedy::Stop: return "Ctrl-X";
         case Remedy::Reset: return "$X";
         case Remedy::Status: return "?";
-        default: return plain_words(remedy);
+        case Remedy::Wait:
+        case Remedy::Again:
+        case Remedy::Timing:
+        case Remedy::Incident:
+        case Remedy::RunRest:
+        case Remedy::Take: break;
     }
+    return plain_words(remedy);
 }
 
 }  // namespace lockstep::grbl
