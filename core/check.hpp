@@ -21,8 +21,8 @@ CheckReporter set_check_reporter(CheckReporter reporter);
 [[noreturn]] void fail_check(std::string_view promise, const std::source_location& where);
 
 /// `promise`: what must hold, as a short statement: "a frame has room for its pieces".
-inline void check(bool holds, std::string_view promise,
-                  const std::source_location& where = std::source_location::current()) {
+constexpr void check(bool holds, std::string_view promise,
+                     const std::source_location& where = std::source_location::current()) {
     if (!holds) [[unlikely]] { fail_check(promise, where); }
 }
 

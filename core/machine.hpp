@@ -12,8 +12,8 @@
 #include "core/device/input_config.hpp"
 #include "core/device/link_name.hpp"
 #include "core/outputs/output_config.hpp"
+#include "core/outputs/unassigned_words.hpp"
 #include "core/protocol/timing.hpp"
-#include "core/unassigned_words.hpp"
 #include "core/units.hpp"
 
 namespace lockstep {

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/enumeration.hpp"
 #include "core/pause.hpp"
 
 namespace lockstep {
@@ -134,7 +135,7 @@ inline constexpr std::array kEventWords{
 };
 
 /// As records name it: "output-on".
-constexpr std::string_view name_of(ProgramEvent::Kind kind) { return kEventWords[static_cast<std::size_t>(kind)].name; }
+constexpr std::string_view name_of(ProgramEvent::Kind kind) { return pick_row(kEventWords, kind).name; }
 
 struct Block {
     std::optional<std::int32_t> line;  // in the G-code file, from 1

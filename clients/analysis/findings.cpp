@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/moves/deviation.hpp"
 #include "core/axis_unit.hpp"
 #include "core/coordinator/path/coordination.hpp"
+#include "core/enumeration.hpp"
 #include "core/kinematics/kinematics.hpp"
 #include "core/number_text.hpp"
 
@@ -353,10 +353,7 @@ void check_missing(const Analysis& analysis, Findings& found) {
 
 }  // namespace
 
-std::string_view name_of(Grade grade) {
-    constexpr std::array<std::string_view, 4> kNames{"good", "doubtful", "unknown", "bad"};
-    return kNames[static_cast<std::size_t>(grade)];
-}
+std::string_view name_of(Grade grade) { return pick_name({"good", "doubtful", "unknown", "bad"}, grade); }
 
 std::vector<Finding> findings(const Analysis& analysis) {
     Findings found;

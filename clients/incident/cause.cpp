@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <span>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "clients/incident/rest.hpp"
 #include "clients/incident/sentences.hpp"
 #include "clients/incident/suspects.hpp"
+#include "core/enumeration.hpp"
 
 namespace lockstep::incident {
 namespace {
@@ -193,10 +193,9 @@ std::string rest_text(const Incident& incident, const Rest& rest, Tick noticed) 
 }  // namespace
 
 std::string_view name_of(CauseKind kind) {
-    constexpr std::array<std::string_view, 10> kNames{
-        "process-ended", "process-stalled", "process-hangs",  "host-stalled", "cut-off",
-        "fault",         "frame-refused",   "emergency-stop", "asked",        "unknown"};
-    return kNames[static_cast<std::size_t>(kind)];
+    return pick_name({"process-ended", "process-stalled", "process-hangs", "host-stalled", "cut-off", "fault",
+                      "frame-refused", "emergency-stop", "asked", "unknown"},
+                     kind);
 }
 
 Evaluation evaluate(const Incident& incident) {

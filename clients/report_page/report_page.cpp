@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <fstream>
 
 #include "clients/analysis/analysis_text.hpp"
@@ -13,6 +12,7 @@
 #include "clients/report_page/page_charts.hpp"
 #include "clients/report_page/page_parts.hpp"
 #include "clients/report_page/page_template.hpp"
+#include "core/enumeration.hpp"
 #include "services/documents/report_json.hpp"
 #include "services/files/text_file.hpp"
 
@@ -23,10 +23,7 @@ constexpr std::string_view kMark = R"(<meta name="generator" content="lockstep a
 constexpr std::size_t kMarkWithin = 1024;  // at the beginning of the page
 
 /// The symbol of a grade: check mark, exclamation mark, question mark, cross. As in web/tables.js.
-std::string_view mark_of(Grade grade) {
-    constexpr std::array<std::string_view, 4> kMarks{"\u2713", "!", "?", "\u2717"};
-    return kMarks[static_cast<std::size_t>(grade)];
-}
+std::string_view mark_of(Grade grade) { return pick_name({"\u2713", "!", "?", "\u2717"}, grade); }
 
 std::string findings_list(const std::vector<Finding>& found) {
     std::string out;

@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "core/enumeration.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep {
@@ -13,7 +14,7 @@ std::string filled(std::string_view text, const ProgramEvent& event) {
     return fmt::format(fmt::runtime(text), fmt::arg("index", event.index), fmt::arg("value", number_text(event.value)));
 }
 
-const EventWords& row_of(const ProgramEvent& event) { return kEventWords[static_cast<std::size_t>(event.kind)]; }
+const EventWords& row_of(const ProgramEvent& event) { return pick_row(kEventWords, event.kind); }
 
 }  // namespace
 

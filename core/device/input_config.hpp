@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/enumeration.hpp"
 #include "core/faults.hpp"
 
 namespace lockstep {
@@ -53,7 +54,7 @@ inline constexpr std::array kInputUses{
 #undef X
 };
 
-constexpr const InputUseRow& row_of(InputUse use) { return kInputUses[static_cast<std::size_t>(use)]; }
+constexpr const InputUseRow& row_of(InputUse use) { return pick_row(kInputUses, use); }
 constexpr std::string_view name_of(InputUse use) { return row_of(use).name; }
 
 /// The effect of a probe that touches during a motion other than a probing move with it.

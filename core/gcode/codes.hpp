@@ -1,9 +1,10 @@
 // The supported G and M codes by modal group, and the codes that are refused with a reason.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string_view>
+
+#include "core/enumeration.hpp"
 
 namespace lockstep::gcode {
 
@@ -31,15 +32,15 @@ enum class Group : std::uint8_t {
     Override,        // M48 to M53
     StateKeeping,    // M70 to M73
 };
-inline constexpr std::size_t kGroups = 21;
+inline constexpr std::size_t kGroups = kCountOf<Group>;
 
 constexpr std::string_view name_of(Group group) {
-    constexpr std::array<std::string_view, kGroups> kNames{
-        "non-modal",    "motion",        "plane",        "distance mode", "arc centre mode",   "feed mode",
-        "units",        "compensation",  "tool length",  "retract",       "coordinate system", "path mode",
-        "spindle mode", "diameter mode", "stop",         "output",        "tool change",       "spindle",
-        "coolant",      "override",      "state keeping"};
-    return kNames[static_cast<std::size_t>(group)];
+    return pick_name(
+        {"non-modal",    "motion",        "plane",        "distance mode", "arc centre mode",   "feed mode",
+         "units",        "compensation",  "tool length",  "retract",       "coordinate system", "path mode",
+         "spindle mode", "diameter mode", "stop",         "output",        "tool change",       "spindle",
+         "coolant",      "override",      "state keeping"},
+        group);
 }
 
 struct Code {

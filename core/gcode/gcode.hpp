@@ -24,8 +24,8 @@
 #include "core/gcode/setup.hpp"
 #include "core/gcode/text/error.hpp"
 #include "core/outputs/assigned_words.hpp"
+#include "core/outputs/unassigned_words.hpp"
 #include "core/program.hpp"
-#include "core/unassigned_words.hpp"
 
 namespace lockstep {
 

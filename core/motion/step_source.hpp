@@ -1,11 +1,11 @@
 // The steps of a move, one after the other. The caller chooses the method that makes them by its BeginSteps.
 #pragma once
 
-#include <array>
 #include <expected>
 #include <memory>
 #include <string_view>
 
+#include "core/enumeration.hpp"
 #include "core/machine.hpp"
 #include "core/motion/step_error.hpp"
 #include "core/motion/step_move.hpp"
@@ -14,8 +14,7 @@ namespace lockstep {
 
 /// The name of a method, such as "ranade".
 constexpr std::string_view name_of(StepMethod method) {
-    constexpr std::array<std::string_view, 5> kNames{"ranade", "spielauer", "lai", "lam", "carrica"};
-    return kNames[static_cast<std::size_t>(method)];
+    return pick_name({"ranade", "spielauer", "lai", "lam", "carrica"}, method);
 }
 
 class StepSource {

@@ -1,6 +1,7 @@
 // The outputs of a machine: which channel of a device each of them is, and which words of programs switch it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -8,17 +9,47 @@
 #include <string_view>
 #include <vector>
 
+#include "core/enumeration.hpp"
+
 namespace lockstep {
 
-/// The words that switch an output.
+/// The words that switch an output. One row for each use: its name in the machine's file, whether words name the output
+/// by its number, and whether it may be analog. The order is that of idl/proto/machine.proto.
+// clang-format off
+#define LOCKSTEP_OUTPUT_USES(X) \
+    /* M62 to M65 if it is digital, M67 and M68 if it is analog */ \
+    X(Number, NUMBER, true, true) \
+    /* M3 and M4 on, M5 off. Analog: the speed S */ \
+    X(Spindle, SPINDLE, false, true) \
+    /* M4 on, M3 and M5 off */ \
+    X(SpindleReverse, SPINDLE_REVERSE, false, false) \
+    /* M7 on, M9 off */ \
+    X(Mist, MIST, false, false) \
+    /* M8 on, M9 off */ \
+    X(Flood, FLOOD, false, false) \
+    /* a pulse at each place of M69 */ \
+    X(Places, PLACES, true, false)
+// clang-format on
+
 enum class OutputUse : std::uint8_t {
-    Number,          // M62 to M65 if it is digital, M67 and M68 if it is analog, by its number
-    Spindle,         // M3 and M4 on, M5 off. Analog: the speed S
-    SpindleReverse,  // M4 on, M3 and M5 off
-    Mist,            // M7 on, M9 off
-    Flood,           // M8 on, M9 off
-    Places,          // a pulse at each place of M69, by its number
+#define X(use, key, has_number, may_be_analog) use,
+    LOCKSTEP_OUTPUT_USES(X)
+#undef X
 };
+
+struct OutputUseRow {
+    OutputUse use;
+    bool has_number;
+    bool may_be_analog;
+};
+
+inline constexpr std::array kOutputUses{
+#define X(use, key, has_number, may_be_analog) OutputUseRow{OutputUse::use, has_number, may_be_analog},
+    LOCKSTEP_OUTPUT_USES(X)
+#undef X
+};
+
+constexpr const OutputUseRow& row_of(OutputUse use) { return pick_row(kOutputUses, use); }
 
 /// The pulses of an analog output: they are longer for greater values.
 struct PwmConfig {
@@ -34,7 +65,7 @@ struct OutputConfig {
     bool at_board = false;  // the motor is a board
     int channel = 0;        // of the device's digital outputs, or of its analog ones
     OutputUse use = OutputUse::Number;
-    std::int32_t number = 0;       // Number, Places
+    std::int32_t number = 0;       // if its use has one
     std::optional<PwmConfig> pwm;  // empty: a digital output
     bool inverted = false;         // it is on while its pin is low
     double pulse_us = 0;           // Places: how long each pulse is

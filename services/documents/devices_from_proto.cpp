@@ -5,19 +5,18 @@
 
 #include "core/device/link_name.hpp"
 #include "services/documents/proto_reader.hpp"
+#include "services/documents/proto_values.hpp"
 
 namespace lockstep {
 namespace {
 
-OutputUse read_use(proto::OutputUse use) {
-    switch (use) {
-        case proto::SPINDLE: return OutputUse::Spindle;
-        case proto::SPINDLE_REVERSE: return OutputUse::SpindleReverse;
-        case proto::MIST: return OutputUse::Mist;
-        case proto::FLOOD: return OutputUse::Flood;
-        case proto::PLACES: return OutputUse::Places;
-        default: return OutputUse::Number;
+/// "EMERGENCY_STOP, DOOR or HOME"
+std::string choice_of(const google::protobuf::EnumDescriptor& values) {
+    std::string text = values.value(0)->name();
+    for (int i = 1; i < values.value_count(); ++i) {
+        text += (i + 1 == values.value_count() ? " or " : ", ") + values.value(i)->name();
     }
+    return text;
 }
 
 /// Whether the output keeps its level.
@@ -54,15 +53,14 @@ void read_owner(const Message& message, const std::string& place, Config& config
 
 OutputConfig read_output(const proto::Output& message, const std::string& place, ProtoReader& reader) {
     OutputConfig output{.channel = message.channel(),
-                        .use = read_use(message.use()),
+                        .use = value_of<OutputUse>(message.use()),
                         .number = message.number(),
                         .inverted = message.inverted()};
     reader.require(message.has_name(), message.name(), output.name, place + ".name");
     read_owner(message, place, output, reader);
     if (!proto::OutputUse_IsValid(message.use())) {
-        reader.refuse(place + ".use",
-                      fmt::format("{}.use is {}; it must be NUMBER, SPINDLE, SPINDLE_REVERSE, MIST, FLOOD or PLACES",
-                                  place, int{message.use()}));
+        reader.refuse(place + ".use", fmt::format("{}.use is {}; it must be {}", place, int{message.use()},
+                                                  choice_of(*proto::OutputUse_descriptor())));
     }
     if (output.makes_pulses()) {
         reader.require(message.has_pulse_us(), message.pulse_us(), output.pulse_us, place + ".pulse_us");
@@ -88,36 +86,12 @@ double usual_silence_ms(const ProtocolTiming& timing) {
     return std::max(MachineConfig{}.output_silence_ms, 5 * stall_ms);
 }
 
-static_assert(static_cast<int>(InputUse::Door) == proto::DOOR && static_cast<int>(InputUse::Home) == proto::HOME);
-static_assert(kInputUses.size() == proto::InputUse_ARRAYSIZE);
-
-/// "EMERGENCY_STOP, DOOR or HOME"
-std::string choice_of(const google::protobuf::EnumDescriptor& values) {
-    std::string text = values.value(0)->name();
-    for (int i = 1; i < values.value_count(); ++i) {
-        text += (i + 1 == values.value_count() ? " or " : ", ") + values.value(i)->name();
-    }
-    return text;
-}
-
-InputUse read_use(proto::InputUse use) {
-    return proto::InputUse_IsValid(use) ? static_cast<InputUse>(use) : InputUse::EmergencyStop;
-}
-
-TouchInMotion read_touch_in_motion(proto::TouchInMotion asked) {
-    switch (asked) {
-        case proto::HOLD: return TouchInMotion::Hold;
-        case proto::FAULT: return TouchInMotion::Fault;
-        default: return TouchInMotion::Nothing;
-    }
-}
-
 InputConfig read_input(const proto::Input& message, const std::string& place, ProtoReader reader) {
     InputConfig input;
     reader.require(message.has_name(), message.name(), input.name, place + ".name");
     read_owner(message, place, input, reader);
     reader.require(message.has_channel(), message.channel(), input.channel, place + ".channel");
-    reader.require(message.has_use(), read_use(message.use()), input.use, place + ".use");
+    reader.require(message.has_use(), value_of<InputUse>(message.use()), input.use, place + ".use");
     if (!proto::InputUse_IsValid(message.use())) {
         reader.refuse(place + ".use", fmt::format("{}.use is {}; it must be {}", place, int{message.use()},
                                                   choice_of(*proto::InputUse_descriptor())));
@@ -127,11 +101,11 @@ InputConfig read_input(const proto::Input& message, const std::string& place, Pr
     if (input.use == InputUse::Probe) { input.number = 0; }
     if (message.has_number()) { input.number = message.number(); }
     if (message.has_max_overshoot_mm()) { input.max_overshoot_mm = message.max_overshoot_mm(); }
-    input.at_touch_in_motion = read_touch_in_motion(message.at_touch_in_motion());
+    input.at_touch_in_motion = value_of<TouchInMotion>(message.at_touch_in_motion());
     if (!proto::TouchInMotion_IsValid(message.at_touch_in_motion())) {
         const std::string key = place + ".at_touch_in_motion";
-        reader.refuse(
-            key, fmt::format("{} is {}; it must be NOTHING, HOLD or FAULT", key, int{message.at_touch_in_motion()}));
+        reader.refuse(key, fmt::format("{} is {}; it must be {}", key, int{message.at_touch_in_motion()},
+                                       choice_of(*proto::TouchInMotion_descriptor())));
     }
     return input;
 }

@@ -8,6 +8,7 @@
 #include "services/documents/machine_proto.hpp"
 #include "services/documents/number_field.hpp"
 #include "services/documents/proto_reader.hpp"
+#include "services/documents/proto_values.hpp"
 #include "services/documents/rules/axis_ranges.hpp"
 
 namespace lockstep {
@@ -21,14 +22,6 @@ constexpr double kDefaultTravelMargin_mm = 2;
 constexpr const char* kMethodNames = "RANADE, SPIELAUER, LAI, LAM and CARRICA";
 constexpr double kDefaultPlantReserve = 1.5;  // the motor's capability over the axis's limits
 
-TimeSource read_time_source(proto::TimeSource source) {
-    switch (source) {
-        case proto::NETWORK: return TimeSource::Network;
-        case proto::PTP: return TimeSource::Ptp;
-        default: return TimeSource::Shared;
-    }
-}
-
 ProtocolTiming read_timing(const proto::Timing& message) {
     const ProtocolTiming preset;
     ProtocolTiming timing{
@@ -38,7 +31,7 @@ ProtocolTiming read_timing(const proto::Timing& message) {
         .freshness_slots = message.has_freshness_slots() ? message.freshness_slots() : preset.freshness_slots,
         .send_ahead_slots = message.has_send_ahead_slots() ? message.send_ahead_slots() : preset.send_ahead_slots,
         .frame_slots = message.has_frame_slots() ? message.frame_slots() : preset.frame_slots,
-        .time_source = read_time_source(message.time_source()),
+        .time_source = value_of<TimeSource>(message.time_source()),
     };
     if (message.has_jog_hold_ms()) { timing.jog_hold_us = std::int64_t{message.jog_hold_ms()} * 1000; }
     timing.clock_error_limit_us =
@@ -225,11 +218,6 @@ BacklashConfig read_backlash(const proto::Backlash& message, const std::string& 
     return backlash;
 }
 
-/// Both enumerations have the same numbers.
-StepMethod read_method(proto::Method method) {
-    return proto::Method_IsValid(method) ? static_cast<StepMethod>(method) : StepMethod::Ranade;
-}
-
 std::string method_name(proto::Method method) {
     return proto::Method_IsValid(method) ? proto::Method_Name(method) : std::to_string(method);
 }
@@ -334,7 +322,7 @@ AxisConfig read_axis(const proto::Axis& message, ProtoReader reader) {
     if (!proto::Method_IsValid(message.method())) {  // protobuf accepts any number for an enumeration
         reader.refuse("method", fmt::format("method is {}; it must be one of {}", int{message.method()}, kMethodNames));
     }
-    axis.method = read_method(message.method());
+    axis.method = value_of<StepMethod>(message.method());
     if (message.has_unhomed_jog_mm_s()) { axis.unhomed_jog_mm_s = message.unhomed_jog_mm_s(); }
     if (message.has_safe_height_mm()) { axis.safe_height_mm = message.safe_height_mm(); }
     if (message.has_max_following_error_mm()) { axis.max_following_error_mm = message.max_following_error_mm(); }
@@ -377,7 +365,7 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     draft.machine.unattended_job = is_held ? UnattendedJob::IsHeld : UnattendedJob::RunsOn;
     draft.machine.subroutine_directory = message.subroutine_directory();
     draft.machine.web = read_web(message);
-    draft.machine.coordination = read_method(message.coordination());
+    draft.machine.coordination = value_of<StepMethod>(message.coordination());
     const bool coordinates = message.coordination() == proto::RANADE || message.coordination() == proto::LAI;
     if (!coordinates) {
         ProtoReader(draft.missing)

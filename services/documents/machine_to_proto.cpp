@@ -1,8 +1,7 @@
-#include <array>
-
 #include "core/kinematics/motor_limits.hpp"
 #include "services/documents/machine_proto.hpp"
 #include "services/documents/number_field.hpp"
+#include "services/documents/proto_values.hpp"
 
 namespace lockstep {
 namespace {
@@ -19,8 +18,7 @@ void write_timing(const MachineConfig& machine, proto::Timing& message) {
         message.set_jog_hold_ms(static_cast<std::int32_t>(timing.jog_hold_us / 1000));
     }
     const bool is_shared = timing.time_source == TimeSource::Shared;
-    constexpr std::array kSources{proto::SHARED, proto::NETWORK, proto::PTP};
-    if (!is_shared) { message.set_time_source(kSources[static_cast<std::size_t>(timing.time_source)]); }
+    if (!is_shared) { message.set_time_source(static_cast<proto::TimeSource>(timing.time_source)); }
     if (is_shared && !machine.estimates_clocks()) { return; }  // the limit has no meaning
     message.set_clock_error_limit_us(timing.clock_error_limit_us);
 }
@@ -90,19 +88,13 @@ void write_plant(const PlantConfig& plant, proto::Plant& message) {
     if (plant.probe_at_mm) { message.set_probe_at_mm(*plant.probe_at_mm); }
 }
 
-proto::OutputUse use_to_proto(OutputUse use) {
-    constexpr std::array kUses{proto::NUMBER, proto::SPINDLE, proto::SPINDLE_REVERSE,
-                               proto::MIST,   proto::FLOOD,   proto::PLACES};
-    return kUses[static_cast<std::size_t>(use)];
-}
-
 proto::OutputLevel level_to_proto(bool stays) { return stays ? proto::KEEP : proto::OFF; }
 
 void write_output(const OutputConfig& output, proto::Output& message) {
     message.set_name(output.name);
     output.at_board ? message.set_board(output.motor) : message.set_motor(output.motor);
     message.set_channel(output.channel);
-    message.set_use(use_to_proto(output.use));
+    message.set_use(static_cast<proto::OutputUse>(output.use));
     message.set_number(output.number);
     message.set_inverted(output.inverted);
     message.set_at_interruption(level_to_proto(output.stays_at_interruption));
@@ -140,7 +132,6 @@ void write_backlash(const BacklashConfig& backlash, proto::Backlash& message) {
     if (backlash.speed_mm_s) { message.set_speed_mm_s(*backlash.speed_mm_s); }
 }
 
-/// Both enumerations have the same numbers.
 proto::Method method_to_proto(StepMethod method) { return static_cast<proto::Method>(method); }
 
 void write_motor(const MotorBlock& motor, proto::Motor& message) {
@@ -217,9 +208,8 @@ void write_input(const InputConfig& input, proto::Input& message) {
     if (input.number) { message.set_number(*input.number); }
     const bool ends_moves = input.use == InputUse::Probe || input.use == InputUse::Home;
     if (ends_moves) { message.set_max_overshoot_mm(input.max_overshoot_mm); }
-    constexpr std::array kTouches{proto::NOTHING, proto::HOLD, proto::FAULT};
     const TouchInMotion touch = input.at_touch_in_motion;
-    if (touch != TouchInMotion::Nothing) { message.set_at_touch_in_motion(kTouches[static_cast<std::size_t>(touch)]); }
+    if (touch != TouchInMotion::Nothing) { message.set_at_touch_in_motion(static_cast<proto::TouchInMotion>(touch)); }
 }
 
 void write_axis(const AxisConfig& axis, proto::Axis& message) {

@@ -1,10 +1,10 @@
 #include "services/record/job_recorder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
+#include "core/enumeration.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/protocol/names.hpp"
 #include "services/documents/machine_file.hpp"
@@ -29,13 +29,13 @@ void JobRecorder::note_axis(const AxisHealth& health) {
 }
 
 void JobRecorder::record(Tick now, const JobEvent& event) {
-    constexpr std::array<const char*, 5> kEvents{"begun", "epoch", "ended", "override", "probe"};
+    const std::string_view name = pick_name({"begun", "epoch", "ended", "override", "probe"}, event.kind);
     JobRecord record{.machine = machine_.name,
                      .coordinator = coordinator_,
                      .sequence = published_.job_events++,
                      .job = event.job,
                      .kind = std::string(name_of(event.job_kind)),
-                     .event = kEvents[static_cast<std::size_t>(event.kind)],
+                     .event = std::string(name),
                      .epoch = event.epoch,
                      .start = event.start,
                      .resume_block = event.place.block,

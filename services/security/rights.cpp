@@ -1,5 +1,6 @@
 #include "services/security/rights.hpp"
 
+#include "core/enumeration.hpp"
 #include "core/kinematics/motors.hpp"
 #include "services/wire/dds/topics.hpp"
 
@@ -15,10 +16,7 @@ TopicRights of(std::vector<Role> writers, std::vector<Role> readers) {
 
 }  // namespace
 
-std::string_view name_of(Role role) {
-    constexpr std::string_view kNames[] = {"coordinator", "axis", "client", "viewer"};
-    return kNames[static_cast<std::size_t>(role)];
-}
+std::string_view name_of(Role role) { return pick_name({"coordinator", "axis", "client", "viewer"}, role); }
 
 Member axis_member(const MachineConfig& machine, std::size_t axis) {
     return {"axis-" + motor_name(machine, axis), Axis, static_cast<std::uint32_t>(axis)};

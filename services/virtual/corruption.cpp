@@ -77,11 +77,10 @@ private:
 }  // namespace
 
 std::string_view name_of(Alteration alteration) {
-    constexpr std::array<std::string_view, kAlterations> kNames{
-        "none",        "frame epoch",    "frame number",   "frame start", "frame ticks",  "frame from",
-        "frame speed", "frame absurd",   "frame travel",   "frame axes",  "frame term",   "state axis",
-        "state stamp", "state identity", "state position", "state term",  "machine term", "command term"};
-    return kNames[static_cast<std::size_t>(alteration)];
+    return pick_name({"none", "frame epoch", "frame number", "frame start", "frame ticks", "frame from", "frame speed",
+                      "frame absurd", "frame travel", "frame axes", "frame term", "state axis", "state stamp",
+                      "state identity", "state position", "state term", "machine term", "command term"},
+                     alteration);
 }
 
 Alteration alter(VirtualMessage& message, std::mt19937_64& random) { return std::visit(Alterer(random), message); }

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <variant>
 
+#include "core/enumeration.hpp"
 #include "core/protocol/messages.hpp"
 
 namespace lockstep {
@@ -37,7 +38,7 @@ enum class Alteration : std::uint8_t {
     MachineTerm,    // the term of an unknown owner
     CommandTerm,    // an order to an axis, with the term of an unknown coordinator
 };
-inline constexpr std::size_t kAlterations = 18;
+inline constexpr std::size_t kAlterations = kCountOf<Alteration>;
 using AlterationCounts = std::array<std::uint64_t, kAlterations>;
 
 std::string_view name_of(Alteration alteration);

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 #include "core/axis_unit.hpp"
+#include "core/enumeration.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -31,10 +31,7 @@ MotionUnit motion_unit(const MachineConfig& machine) {
 
 }  // namespace
 
-std::string_view name_of(MotionUnit unit) {
-    constexpr std::array<std::string_view, 3> kNames{"mm", "deg", "mm and deg"};
-    return kNames[static_cast<std::size_t>(unit)];
-}
+std::string_view name_of(MotionUnit unit) { return pick_name({"mm", "deg", "mm and deg"}, unit); }
 
 MotionUnit motion_unit(const MachineConfig& machine, const Kinematics& kinematics, const MoveLog& move) {
     AxisSet moved = 0;

@@ -13,6 +13,7 @@
 #include "clients/session/session.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/output.hpp"
+#include "core/enumeration.hpp"
 #include "core/kinematics/motors.hpp"
 #include "idl/proto/report.pb.h"
 #include "services/axis/device_window.hpp"
@@ -152,10 +153,7 @@ void examine_processes(const ChosenMachine& machine, Findings& findings) {
     }
 }
 
-std::string_view name_of(Rating rating) {
-    constexpr std::string_view kNames[] = {"good", "doubtful", "bad"};
-    return kNames[static_cast<std::size_t>(rating)];
-}
+std::string_view name_of(Rating rating) { return pick_name({"good", "doubtful", "bad"}, rating); }
 
 proto::DoctorReport report_of(const Findings& findings, bool well) {
     proto::DoctorReport report;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/enumeration.hpp"
 #include "core/protocol/names.hpp"
 #include "core/protocol/transition_table.hpp"
 
@@ -34,7 +35,7 @@ enum class AxisEvent : std::uint8_t {
     ResetHomed,    // out of Fault, position still known
     ResetUnhomed,  // out of Fault, to be homed again
 };
-inline constexpr std::size_t kAxisEvents = 14;
+inline constexpr std::size_t kAxisEvents = kCountOf<AxisEvent>;
 
 struct AxisTransition {
     AxisPhase from;
@@ -108,10 +109,9 @@ constexpr std::optional<AxisPhase> next_phase(AxisPhase from, AxisEvent event) {
 }
 
 constexpr std::string_view name_of(AxisEvent event) {
-    constexpr std::array<std::string_view, kAxisEvents> kNames{
-        "SpeedRises",   "SpeedSteady", "SpeedFalls", "MotionEnds",   "SwitchStops", "LimitStops", "HostStops",
-        "PositionKept", "Zeroed",      "Released",   "HomingBegins", "Fails",       "ResetHomed", "ResetUnhomed"};
-    return kNames[static_cast<std::size_t>(event)];
+    return pick_name({"SpeedRises", "SpeedSteady", "SpeedFalls", "MotionEnds", "SwitchStops", "LimitStops", "HostStops",
+                      "PositionKept", "Zeroed", "Released", "HomingBegins", "Fails", "ResetHomed", "ResetUnhomed"},
+                     event);
 }
 
 }  // namespace lockstep

@@ -1,11 +1,11 @@
 #include "core/coordinator/jobs/takeover.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
 #include "core/arc_path.hpp"
+#include "core/enumeration.hpp"
 #include "core/kinematics/axis_states.hpp"
 #include "core/kinematics/kinematics.hpp"
 
@@ -137,18 +137,16 @@ bool may_have_pulses(const MachineState& last, const KnownProgram& program, std:
 }  // namespace
 
 std::string_view text_of(TakeoverDoubt doubt) {
-    constexpr std::array<std::string_view, 10> kTexts{
-        "a takeover stops the job; with --on-takeover continue it continues the job",
-        "the job was held, paused or stopping, or it is not a program",
-        "a hold or stop was commanded during the takeover",
-        "this coordinator does not have the job's program",
-        "the last owner's reports of the job do not match its program",
-        "an axis is missing, was restarted, is not homed or has a fault",
-        "the axes did not all run the same frames",
-        "the axes ran frames for which no message of the last owner was received",
-        "an axis is not where its frames end",
-        "the job makes pulses at places, and only its last owner knew how many are left"};
-    return kTexts[static_cast<std::size_t>(doubt)];
+    return pick_name(
+        {"a takeover stops the job; with --on-takeover continue it continues the job",
+         "the job was held, paused or stopping, or it is not a program",
+         "a hold or stop was commanded during the takeover", "this coordinator does not have the job's program",
+         "the last owner's reports of the job do not match its program",
+         "an axis is missing, was restarted, is not homed or has a fault", "the axes did not all run the same frames",
+         "the axes ran frames for which no message of the last owner was received",
+         "an axis is not where its frames end",
+         "the job makes pulses at places, and only its last owner knew how many are left"},
+        doubt);
 }
 
 bool is_at_hand(const MachineState& last, const KnownProgram& program) {

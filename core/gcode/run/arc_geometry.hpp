@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
+#include "core/enumeration.hpp"
 #include "core/gcode/motion.hpp"
 #include "core/gcode/state.hpp"
 
@@ -20,7 +21,7 @@ struct PlaneAxes {
 
 constexpr PlaneAxes axes_of(Plane plane) {
     constexpr std::array kAll{PlaneAxes{0, 1, 2}, PlaneAxes{2, 0, 1}, PlaneAxes{1, 2, 0}};
-    return kAll[static_cast<std::size_t>(plane)];
+    return pick_row(kAll, plane);
 }
 
 constexpr Flat in_plane(PlaneAxes axes, const Point& point) { return {point[axes.first], point[axes.second]}; }

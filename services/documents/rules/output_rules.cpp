@@ -71,18 +71,17 @@ private:
     }
 
     void check_use(const OutputConfig& output, const std::string& at) {
-        const bool may_be_analog = output.use == OutputUse::Number || output.use == OutputUse::Spindle;
+        const OutputUseRow& use = row_of(output.use);
         problems_.require(
-            may_be_analog || !output.pwm, at + "use",
+            use.may_be_analog || !output.pwm, at + "use",
             fmt::format("output {} is switched on and off; remove pwm, or use NUMBER or SPINDLE", output.name));
         problems_.require(!output.inverted || !output.pwm, at + "inverted",
                           fmt::format("output {} has pwm, and its pulses cannot be inverted; remove inverted, and "
                                       "invert them where they are used",
                                       output.name));
-        const bool has_number = output.use == OutputUse::Number || output.makes_pulses();
         const std::int32_t most = output.is_analog() ? kMostAnalogNumbers : kMostDigitalNumbers;
-        if (has_number) { problems_.require_range(at + "number", output.number, 0, most - 1); }
-        const auto word = std::tuple(output.use, output.is_analog(), has_number ? output.number : 0);
+        if (use.has_number) { problems_.require_range(at + "number", output.number, 0, most - 1); }
+        const auto word = std::tuple(output.use, output.is_analog(), use.has_number ? output.number : 0);
         problems_.require(
             words_.insert(word).second, at + "use",
             fmt::format("output {} has the words of another output; give it another use or number", output.name));

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/axis/state/fsm.hpp"
+#include "core/enumeration.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/protocol/names.hpp"
 
@@ -15,7 +16,8 @@ namespace {
 /// Returns the same 64 bits as a signed number, because LCM has no unsigned numbers.
 std::int64_t bits(std::uint64_t value) { return static_cast<std::int64_t>(value); }
 
-constexpr std::array<std::string_view, 5> kChannelKinds{"input", "digital", "analog", "compare-begins", "compare-ends"};
+constexpr std::array<std::string_view, kCountOf<ChannelEvent::Kind>> kChannelKinds{"input", "digital", "analog",
+                                                                                   "compare-begins", "compare-ends"};
 
 template <typename Small>
 bool fits(std::int32_t number) {
@@ -116,7 +118,7 @@ std::optional<ChannelEvent> event_of(const channel_event_t& message) {
                         .detail = message.detail};
 }
 
-std::string_view name_of(ChannelEvent::Kind kind) { return kChannelKinds[static_cast<std::size_t>(kind)]; }
+std::string_view name_of(ChannelEvent::Kind kind) { return pick_row(kChannelKinds, kind); }
 
 run_t to_lcm(const RunRecord& record, std::int64_t tick_ns) {
     run_t out{};
