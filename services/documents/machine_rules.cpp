@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/coordinator/path/coordination.hpp"
 #include "core/coordinator/path/lai_path.hpp"
 #include "core/protocol/frame_room.hpp"
 #include "core/protocol/peer_evidence.hpp"
@@ -219,7 +220,7 @@ std::vector<Problem> machine_problems(const MachineConfig& machine) {
         !machine.axes.empty() && machine.axes.size() <= kMaxAxes, "",
         fmt::format("the machine has {} axes; it must have from 1 to {}: write one axis {{ ... }} for each",
                     machine.axes.size(), kMaxAxes));
-    if (machine.coordination == StepMethod::Lai && problems.empty()) {
+    if (!coordination_of(machine).suits_all_axes && problems.empty()) {
         const auto suits = suits_lai_path(machine);
         problems.require(suits.has_value(), "coordination", suits ? "" : text_of(suits.error()));
     }

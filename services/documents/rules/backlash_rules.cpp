@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/coordinator/path/coordination.hpp"
 #include "core/kinematics/motors.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/problem_list.hpp"
@@ -54,7 +55,7 @@ private:
                           at_ + " is not possible yet in a machine with a delta; remove it");
         problems_.require(!has_screws(), at_,
                           at_ + " is not possible yet in a machine with a screw; remove one of them");
-        problems_.require(machine_.coordination != StepMethod::Lai, at_,
+        problems_.require(coordination_of(machine_).corrects_motors, at_,
                           at_ + " has no effect with coordination LAI; set RANADE, or remove it");
         for (const OutputConfig& output : machine_.outputs) {
             problems_.require(!output.makes_pulses() || output.motor != motor, at_,

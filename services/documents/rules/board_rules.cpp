@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/coordinator/path/coordination.hpp"
 #include "core/kinematics/motors.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/names.hpp"
@@ -54,7 +55,7 @@ std::vector<Problem> board_problems(const MachineConfig& machine) {
     const std::size_t motors = motor_count(machine);
     problems.require(motors <= kMaxAxes, "board",
                      fmt::format("the machine has {} motors and boards together; it can have {}", motors, kMaxAxes));
-    problems.require(machine.boards.empty() || machine.coordination == StepMethod::Ranade, "coordination",
+    problems.require(machine.boards.empty() || coordination_of(machine).moves_boards, "coordination",
                      "coordination is LAI, which has no frames for boards; set RANADE");
     for (std::size_t k = 0; k < machine.boards.size(); ++k) { check(machine, k, problems); }
     return problems.take();

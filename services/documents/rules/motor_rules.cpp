@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/coordinator/path/coordination.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/methods/suits.hpp"
 #include "core/motion/step_source.hpp"
@@ -207,7 +208,7 @@ std::vector<Problem> kinematics_problems(const MachineConfig& machine) {
                      fmt::format("the machine has {} axes and motors together; with motor blocks or kinematics there "
                                  "may be {} at most",
                                  rows, kMaxAxes));
-    problems.require(is_direct || machine.coordination != StepMethod::Lai, "coordination",
+    problems.require(is_direct || coordination_of(machine).moves_shared_motors, "coordination",
                      "coordination is LAI, which moves one motor for each axis; set RANADE");
     if (!problems.empty()) { return problems.take(); }
     problems.require(map.motors_by_joints().inverse().has_value(), "kinematics",

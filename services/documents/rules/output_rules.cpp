@@ -4,6 +4,7 @@
 #include <set>
 #include <tuple>
 
+#include "core/coordinator/path/coordination.hpp"
 #include "core/hardware/output_change.hpp"
 #include "core/kinematics/motors.hpp"
 #include "services/documents/machine_rules.hpp"
@@ -147,7 +148,7 @@ std::vector<Problem> output_problems(const MachineConfig& machine) {
     for (std::size_t k = 0; k < machine.outputs.size(); ++k) {
         rules.check(machine.outputs[k], fmt::format("output[{}].", k));
     }
-    rules.problems().require(machine.outputs.empty() || machine.coordination == StepMethod::Ranade, "output",
+    rules.problems().require(machine.outputs.empty() || coordination_of(machine).switches_outputs, "output",
                              "outputs need coordination: RANADE, because LAI cannot slow a path for their changes");
     rules.check_silence();
     return rules.problems().take();

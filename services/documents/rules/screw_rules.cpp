@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/coordinator/path/coordination.hpp"
 #include "core/kinematics/motors.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/problem_list.hpp"
@@ -68,7 +69,7 @@ private:
     void check_use(const std::string& motor) {
         problems_.require(!is_on_tower(machine_, motor), at_,
                           at_ + " corrects a carriage of a delta, which is not possible yet; remove it");
-        problems_.require(machine_.coordination != StepMethod::Lai, at_,
+        problems_.require(coordination_of(machine_).corrects_motors, at_,
                           at_ + " has no effect with coordination LAI; set RANADE, or remove it");
         for (const OutputConfig& output : machine_.outputs) {
             problems_.require(!output.makes_pulses() || output.motor != motor, at_,
