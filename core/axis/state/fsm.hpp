@@ -93,13 +93,27 @@ constexpr std::optional<std::size_t> find_transition(AxisPhase from, AxisEvent e
     return find_row(kAxisTransitions, from, event);
 }
 
-/// Whether an event may come in a state that has no transition for it. The device reports speed and stops, and a person
-/// resets, in any state. The axis itself begins homing, sets its zero and leaves Stop only in the states that the table
-/// lists, so elsewhere these are a defect: an axis would be homed and never ready. Fault is latched, whatever comes.
+/// Whether an event may come in a state that has no transition for it. Elsewhere it is a defect: an axis would be homed
+/// and never ready. Fault is latched, whatever comes.
 constexpr bool may_come(AxisPhase state, AxisEvent event) {
-    const bool is_own_decision =
-        event == AxisEvent::HomingBegins || event == AxisEvent::Zeroed || event == AxisEvent::Released;
-    return state == AxisPhase::Fault || !is_own_decision;
+    if (state == AxisPhase::Fault) { return true; }
+    switch (event) {
+        case AxisEvent::SpeedRises:  // the device reports speed and stops in any state
+        case AxisEvent::SpeedSteady:
+        case AxisEvent::SpeedFalls:
+        case AxisEvent::MotionEnds:
+        case AxisEvent::SwitchStops:
+        case AxisEvent::LimitStops:
+        case AxisEvent::HostStops:
+        case AxisEvent::Fails: return true;
+        case AxisEvent::PositionKept:  // the axis decides these itself
+        case AxisEvent::Zeroed:
+        case AxisEvent::Released:
+        case AxisEvent::HomingBegins: return false;
+        case AxisEvent::ResetHomed: return state == AxisPhase::Standby;  // without a fault there is nothing to leave
+        case AxisEvent::ResetUnhomed: return state == AxisPhase::Initialize;
+    }
+    return false;
 }
 
 /// Returns the state that follows, or nullopt if the event means nothing in this state.

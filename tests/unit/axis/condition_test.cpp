@@ -53,6 +53,26 @@ TEST(PhaseMachineDeathTest, AZeroThatIsSetInMotionIsADefect) {
     EXPECT_EQ(phases.phase(), AxisPhase::Fault) << "a fault that comes first is kept";
 }
 
+TEST(PhaseMachine, AResetWithoutAFaultChangesNothing) {
+    PhaseMachine phases;
+    phases.reset(false);
+    EXPECT_EQ(phases.phase(), AxisPhase::Initialize);
+    phases.happen(AxisEvent::PositionKept);
+    phases.reset(true);
+    EXPECT_EQ(phases.phase(), AxisPhase::Standby);
+}
+
+/// It would be homed and never ready, or ready and not homed.
+TEST(PhaseMachineDeathTest, AResetThatDoesNotFitTheStateIsADefect) {
+    PhaseMachine phases;
+    EXPECT_DEATH(phases.reset(true), "an axis decides only what its state allows");
+    phases.happen(AxisEvent::PositionKept);
+    EXPECT_DEATH(phases.reset(false), "an axis decides only what its state allows");
+    EXPECT_DEATH(phases.happen(AxisEvent::PositionKept), "an axis decides only what its state allows");
+    phases.happen(AxisEvent::HostStops);
+    EXPECT_DEATH(phases.reset(false), "an axis decides only what its state allows") << "a stop is left by its release";
+}
+
 TEST(OrderLog, ReportsAnOrderWhenItEnds) {
     OrderLog orders;
     orders.begin(3);
