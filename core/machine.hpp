@@ -1,6 +1,7 @@
 // The configuration of a machine in its user's units (mm, mm/s), and the conversion to the units of motion.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "core/device/device_name.hpp"
 #include "core/device/input_config.hpp"
 #include "core/device/link_name.hpp"
+#include "core/enumeration.hpp"
 #include "core/outputs/output_config.hpp"
 #include "core/outputs/unassigned_words.hpp"
 #include "core/protocol/timing.hpp"
@@ -21,11 +23,31 @@ namespace lockstep {
 /// The method that makes the steps of an axis's own moves (core/methods): homing, and point-to-point moves of one axis.
 enum class StepMethod : std::uint8_t { Ranade, Spielauer, Lai, Lam, Carrica };
 
+enum class HomingWay : std::uint8_t {
+    BySwitch,  // the home switch of each motor's own device
+    ByTouch,   // an input, with use Home
+    InPlace,   // no switch: where the axis stands is park_mm
+};
+
+struct HomingWayRow {
+    bool searches;       // it moves until a switch closes
+    bool stops_itself;   // the device of each motor has the switch, and stops the motor
+    bool runs_programs;  // the coordinator moves the axis by programs with probing moves
+};
+
+inline constexpr std::array kHomingWays{
+    HomingWayRow{.searches = true, .stops_itself = true, .runs_programs = false},
+    HomingWayRow{.searches = true, .stops_itself = false, .runs_programs = true},
+    HomingWayRow{.searches = false, .stops_itself = false, .runs_programs = false},
+};
+
+constexpr const HomingWayRow& row_of(HomingWay way) { return pick_row(kHomingWays, way); }
+
 /// How an axis finds its zero. Speeds are positive; `toward_min` says which end it searches.
 struct HomingConfig {
-    int sequence = 0;       // axes with lower numbers home first; equal ones together
-    bool in_place = false;  // no switch: where the axis stands is park_mm
-    std::string input;      // its switch, with use Home: the coordinator homes the axis; empty: its device's own switch
+    int sequence = 0;  // axes with lower numbers home first; equal ones together
+    HomingWay way = HomingWay::BySwitch;
+    std::string input;  // its switch: ByTouch
     bool toward_min = true;
     double search_velocity_mm_s = 0;   // not above start_velocity: the switch stops the pulses at once
     double latch_velocity_mm_s = 0;    // the slow second approach that sets the zero

@@ -88,7 +88,7 @@ MotorConfig motor_of_board(const BoardConfig& board) {
                       .max_velocity_mm_s = 1,
                       .max_accel_mm_s2 = 10,
                       .max_decel_mm_s2 = 10};
-    motor.homing.in_place = true;
+    motor.homing.way = HomingWay::InPlace;
     motor.homing.switch_position_mm = -1;
     motor.plant = {.travel_margin_mm = 2, .max_torque_accel_mm_s2 = 10, .max_jump_mm_s = 1};
     return motor;
@@ -146,7 +146,7 @@ void scale(MotorConfig& motor, bool has_own_plant, const MachineConfig& machine,
         return;
     }
     motor.unhomed_jog_mm_s.reset();
-    motor.homing.in_place = true;
+    motor.homing.way = HomingWay::InPlace;
     motor.homing.park_mm = 0;
     if (!has_own_plant) { motor.plant = {}; }
     for (std::size_t i = 0; i < shares.size(); ++i) {

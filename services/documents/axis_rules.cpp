@@ -61,7 +61,7 @@ private:
         length("max_skew_mm", *axis_.max_skew_mm);
         const double beside = axis_.homing.switch_position_mm +
                               (axis_.homing.toward_min ? axis_.homing.pulloff_mm : -axis_.homing.pulloff_mm);
-        const double parked = axis_.homing.in_place ? 0 : std::abs(axis_.homing.park_mm - beside);
+        const double parked = row_of(axis_.homing.way).searches ? std::abs(axis_.homing.park_mm - beside) : 0;
         const double least = axis_.homing.pulloff_mm + parked;
         problems_.require_between(
             {"max_skew_mm", "homing.park_mm", "homing.pulloff_mm"}, *axis_.max_skew_mm >= least,

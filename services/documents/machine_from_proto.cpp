@@ -149,7 +149,9 @@ HomingConfig read_homing(const proto::Homing& message, const AxisConfig& axis, b
     const double travel = axis.position_max_mm - axis.position_min_mm;
     HomingConfig homing;
     homing.sequence = message.sequence();
-    homing.in_place = message.in_place();
+    homing.way = message.in_place()        ? HomingWay::InPlace
+                 : message.input().empty() ? HomingWay::BySwitch
+                                           : HomingWay::ByTouch;
     homing.input = message.input();
     homing.toward_min = message.has_toward_min() ? message.toward_min() : homing.toward_min;
     homing.search_velocity_mm_s =

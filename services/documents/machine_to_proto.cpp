@@ -76,7 +76,7 @@ void write_homing(const HomingConfig& homing, proto::Homing& message) {
     message.set_touch_tolerance_mm(homing.touch_tolerance_mm);
     message.set_switch_position_mm(homing.switch_position_mm);
     message.set_park_mm(homing.park_mm);
-    if (homing.in_place) { message.set_in_place(true); }
+    if (homing.way == HomingWay::InPlace) { message.set_in_place(true); }
     if (!homing.input.empty()) { message.set_input(homing.input); }
 }
 

@@ -10,7 +10,7 @@ HomeSwitches::HomeSwitches(const MachineConfig& machine) : kinematics_(machine) 
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const AxisConfig& axis = machine.axes[i];
         const auto input = std::ranges::find(machine.inputs, axis.homing.input, &InputConfig::name);
-        if (axis.homing.input.empty() || input == machine.inputs.end()) { continue; }
+        if (!row_of(axis.homing.way).runs_programs || input == machine.inputs.end()) { continue; }
         switches_.push_back({.input = static_cast<std::size_t>(input - machine.inputs.begin()),
                              .axis = i,
                              .at_steps = axis.homing.switch_position_mm * axis.steps_per_mm,

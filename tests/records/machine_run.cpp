@@ -65,7 +65,7 @@ MachineConfig with_camera(MachineConfig machine) {
 MachineConfig small_core_xy() {
     MachineConfig machine = small_mill();
     for (AxisConfig& axis : std::span(machine.axes).first(2)) {
-        axis.homing.in_place = true;
+        axis.homing.way = HomingWay::InPlace;
         axis.plant.start_position_mm = axis.homing.park_mm;
         axis.motors = {{.name = axis.name, .steps_per_mm = axis.steps_per_mm}};
     }

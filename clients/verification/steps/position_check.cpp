@@ -10,7 +10,7 @@ namespace lockstep::verification {
 
 void PositionCheck::set_machine(const MachineConfig& machine) {
     assumes_places_ =
-        std::ranges::any_of(machine.axes, [](const AxisConfig& axis) { return !axis.homing.input.empty(); });
+        std::ranges::any_of(machine.axes, [](const AxisConfig& axis) { return row_of(axis.homing.way).runs_programs; });
 }
 
 void PositionCheck::take(const SeenPosition& position) {

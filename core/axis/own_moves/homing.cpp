@@ -11,7 +11,7 @@ std::int64_t Homing::toward_switch(double mm) const {
 }
 
 HomingStep Homing::begin(bool home_closed, std::int64_t count) {
-    if (motor_.homing.in_place) {
+    if (!row_of(motor_.homing.way).searches) {
         return {.zeroed = true, .zero_count = count - to_steps(motor_, motor_.homing.park_mm), .done = true};
     }
     approaches_ = false;

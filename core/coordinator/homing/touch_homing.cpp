@@ -24,7 +24,7 @@ MotorConfig as_motor(const AxisConfig& axis, double overshoot_mm) {
                       .position_max_mm = axis.position_max_mm,
                       .homing = axis.homing,
                       .plant = axis.plant};
-    motor.homing.in_place = false;
+    motor.homing.way = HomingWay::BySwitch;
     motor.homing.pulloff_mm += overshoot_mm;
     return motor;
 }
@@ -39,7 +39,7 @@ TouchInput switch_at(const InputConfig& input, const MachineConfig& machine) {
 AxisSet axes_homed_by_touch(AxisSet axes, const MachineConfig& machine) {
     AxisSet homed = 0;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        if (has_axis(axes, i) && !machine.axes[i].homing.input.empty()) { homed |= axis_bit(i); }
+        if (has_axis(axes, i) && row_of(machine.axes[i].homing.way).runs_programs) { homed |= axis_bit(i); }
     }
     return homed;
 }

@@ -25,7 +25,7 @@ AxisCounts first_places(AxisSet motors, const LoopView& loop) {
         const AxisConfig& axis = loop.machine.axes[i];
         if ((loop.kinematics.motors_of_axes(axis_bit(i)) & motors) == 0) { continue; }
         const double middle_mm = (axis.position_min_mm + axis.position_max_mm) / 2;
-        places[i] = to_steps(axis, axis.homing.in_place ? axis.homing.park_mm : middle_mm);
+        places[i] = to_steps(axis, row_of(axis.homing.way).searches ? middle_mm : axis.homing.park_mm);
     }
     return places;
 }
@@ -133,7 +133,7 @@ AxisSet approaching_motors(AxisSet axes, const CoordinatorLoop& loop) {
     AxisSet motors = 0;
     for (std::size_t i = 0; i < loop.machine.axes.size(); ++i) {
         const AxisConfig& axis = loop.machine.axes[i];
-        if (!has_axis(axes, i) || axis.motors.size() < 2 || axis.homing.in_place) { continue; }
+        if (!has_axis(axes, i) || axis.motors.size() < 2 || !row_of(axis.homing.way).stops_itself) { continue; }
         motors |= loop.kinematics.motors_of_axes(axis_bit(i));
     }
     return motors;

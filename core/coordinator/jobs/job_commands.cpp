@@ -72,10 +72,10 @@ CommandResult check_homes_alone(AxisSet axes, const LoopView& loop) {
             return refuse(FaultCode::BadProgram,
                           loop.label_of(m) + " moves several axes, which can only be homed together: name all of them");
         }
-        if (!motor.homing.in_place) { continue; }  // the carriage of a delta, which has a switch
+        if (row_of(motor.homing.way).searches) { continue; }  // the carriage of a delta, which has a switch
         for (std::size_t i = 0; i < loop.machine.axes.size(); ++i) {
             const AxisConfig& axis = loop.machine.axes[i];
-            if (!has_axis(moved, i) || axis.homing.in_place || !axis.homing.input.empty()) { continue; }
+            if (!has_axis(moved, i) || !row_of(axis.homing.way).stops_itself) { continue; }
             return refuse(FaultCode::BadProgram,
                           "the switch of axis " + axis.name +
                               " cannot stop motors of several devices; name an input "

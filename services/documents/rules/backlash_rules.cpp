@@ -67,7 +67,7 @@ private:
 
     /// Its direction at the switch tells on which side of the play the motor pushes.
     void check_homing(const BacklashConfig& backlash) {
-        problems_.require(!axis_.homing.in_place && axis_.homing.input.empty(), at_,
+        problems_.require(row_of(axis_.homing.way).stops_itself, at_,
                           at_ +
                               " needs an axis that homes to the home switch of its own motors: without it nothing "
                               "tells on which side the motor pushes; remove it, or homing.in_place or homing.input");

@@ -139,7 +139,7 @@ private:
                                           "home together: give them the same number",
                                           name, axis.homing.sequence, delta_.z, z.sequence));
             problems_.require(
-                axis.homing.in_place == z.in_place, key_of(axis) + "homing.in_place",
+                row_of(axis.homing.way).searches == row_of(z.way).searches, key_of(axis) + "homing.in_place",
                 fmt::format("homing.in_place differs between the axes {} and {}; the axes of a delta home "
                             "together: set it for all of them, or for none",
                             name, delta_.z));
@@ -152,7 +152,7 @@ private:
         const std::vector<MotorConfig> motors = motors_of(machine_);
         for (std::size_t k = 0; k < DeltaMap::kTowers; ++k) {
             const MotorConfig& motor = motors[delta->motors[k]];
-            if (motor.homing.in_place) { continue; }
+            if (!row_of(motor.homing.way).searches) { continue; }
             const DeltaMap::Reach reach = reach_of(machine_, *delta, k);
             const double at = motor.homing.switch_position_mm;
             const double margin = motor.plant.travel_margin_mm;

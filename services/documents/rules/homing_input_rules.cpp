@@ -41,7 +41,7 @@ void check_homing_input(const MachineConfig& machine, const AxisConfig& axis, Pr
                      fmt::format("homing.input is \"{}\"; write an input with this name and use: HOME, or remove it if "
                                  "the switch is wired to the axis's own device",
                                  homing.input));
-    problems.require(!homing.in_place, "homing.input",
+    problems.require(homing.way != HomingWay::InPlace, "homing.input",
                      "homing.input is given, but in_place: true says that the axis has no switch; remove one");
     problems.require(axis.motors.size() < 2, "homing.input",
                      "homing.input is given, but the axis has several motors, which home by their own switches to be "

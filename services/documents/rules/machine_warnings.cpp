@@ -47,7 +47,7 @@ private:
 
 /// Each motor's process begins to search when its order arrives, and it may stall before.
 void check_skew(const MachineConfig& machine, const AxisConfig& axis, std::vector<std::string>& warnings) {
-    if (axis.motors.size() < 2 || !axis.max_skew_mm || axis.homing.in_place) { return; }
+    if (axis.motors.size() < 2 || !axis.max_skew_mm || !row_of(axis.homing.way).searches) { return; }
     const ProtocolTiming& t = machine.timing;
     const double late_s = 1e-6 * static_cast<double>(t.slot_us) * (t.stall_slots + rules::kHopSlots);
     const double behind_mm = late_s * axis.homing.search_velocity_mm_s;

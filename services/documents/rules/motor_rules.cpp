@@ -142,7 +142,7 @@ void check_speeds(const AxisConfig& axis, const MotorConfig& motor, ProblemList&
                 "once; decrease {}, or give the motor another start_velocity_mm_s",
                 motor.name, number_text(mm_s), key, number_text(motor.start_velocity_mm_s), key));
     };
-    if (!motor.homing.in_place) {
+    if (row_of(motor.homing.way).searches) {
         may_stop("homing.search_velocity_mm_s", axis.homing.search_velocity_mm_s, motor.homing.search_velocity_mm_s);
     }
     if (motor.unhomed_jog_mm_s) { may_stop("unhomed_jog_mm_s", *axis.unhomed_jog_mm_s, *motor.unhomed_jog_mm_s); }

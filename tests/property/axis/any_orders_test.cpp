@@ -45,7 +45,7 @@ private:
         axis.position_max_mm = 20;
         axis.homing.toward_min = !one_of(3);
         if (!axis.homing.toward_min) { axis.homing.switch_position_mm = 21; }
-        axis.homing.in_place = one_of(2);
+        axis.homing.way = one_of(2) ? HomingWay::InPlace : HomingWay::BySwitch;
         axis.plant.start_position_mm = static_cast<double>(whole(1, 19));
         if (one_of(3)) { axis.unhomed_jog_mm_s.reset(); }
         constexpr std::array kMethods{StepMethod::Ranade, StepMethod::Ranade, StepMethod::Spielauer, StepMethod::Lam};

@@ -78,7 +78,7 @@ std::string move_of(std::uint32_t number) {
 }
 
 void draw_homing(Drawn& drawn, HomingConfig& homing) {
-    homing.in_place = drawn.one_of(12);
+    homing.way = drawn.one_of(12) ? HomingWay::InPlace : HomingWay::BySwitch;
     homing.toward_min = drawn.one_of(2);
     homing.search_velocity_mm_s = static_cast<double>(1 + drawn.below(10));
     homing.latch_velocity_mm_s = static_cast<double>(1 + drawn.below(3)) / 2;

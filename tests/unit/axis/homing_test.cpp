@@ -31,7 +31,7 @@ protected:
 
 TEST_F(HomingSequence, InPlaceTakesWhereItStandsForThePark) {
     MotorConfig still = axis();
-    still.homing.in_place = true;
+    still.homing.way = HomingWay::InPlace;
     const HomingStep step = Homing(still).begin(true, -3000);
     EXPECT_TRUE(step.zeroed && step.done);
     EXPECT_FALSE(step.move);

@@ -134,7 +134,7 @@ TEST(Delta, HomesEachCarriageToTheSwitchOfItsTower) {
                                     std::sqrt(320. * 320 - 130 * 130 - 75 * 75), std::sqrt(320. * 320 - 150 * 150)};
     for (std::size_t m = 0; m < 3; ++m) {
         EXPECT_FALSE(motors[m].moves_one_axis);
-        EXPECT_FALSE(motors[m].homing.in_place);
+        EXPECT_TRUE(row_of(motors[m].homing.way).searches);
         EXPECT_FALSE(motors[m].homing.toward_min);
         EXPECT_NEAR(motors[m].homing.switch_position_mm, 245 + roots[m] - (m == 2 ? 0.5 : 0), 1e-9);
         EXPECT_NEAR(motors[m].homing.park_mm, 180 + roots[m], 1e-9);

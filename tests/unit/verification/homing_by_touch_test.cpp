@@ -15,7 +15,7 @@ MachineConfig belts_with_switches() {
         const std::string input = axis.name + "_home";
         machine.inputs.push_back(
             {.name = input, .motor = i == 0 ? "B" : "A", .channel = 3, .use = InputUse::Home, .max_overshoot_mm = 1});
-        axis.homing.in_place = false;
+        axis.homing.way = HomingWay::ByTouch;
         axis.homing.input = input;
         axis.homing.search_velocity_mm_s = axis.homing.latch_velocity_mm_s = 2.5;
         axis.plant.start_position_mm = 4 + static_cast<double>(i);

@@ -86,7 +86,7 @@ PlannedFault draw_plant_fault_of_homing(Draw& draw, const MachineConfig& machine
     const FaultKind kind = draw.any_of({FaultKind::Stick, FaultKind::Stick, FaultKind::Stick, FaultKind::Push});
     PlannedFault planned{.fault = draw_of(draw, machine, kind, slots_of(draw.magnitude(0.01, 10), machine))};
     // A motor that homes in place cannot know that it was pushed meanwhile.
-    if (motors_of(machine)[planned.fault.process].homing.in_place) { planned.fault.push_steps = 0; }
+    if (!row_of(motors_of(machine)[planned.fault.process].homing.way).searches) { planned.fault.push_steps = 0; }
     if (kind == FaultKind::Stick && draw.chance(0.6)) {
         planned.fault.contact = &PlantInputs::home;
         planned.fault.closed = draw.chance(0.5);

@@ -11,7 +11,7 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
     const bool has_moved = std::exchange(encoder_[axis], encoder) != encoder || vm_.device(axis).in_motion();
     if (has_moved) { moved_[axis] = now; }
     const bool is_by_touch = has_axis(by_touch_, axis);
-    if (motors_[axis].homing.in_place && !is_by_touch) { note_zero(axis, out); }
+    if (!row_of(motors_[axis].homing.way).searches && !is_by_touch) { note_zero(axis, out); }
     if (!out.state) { return; }
     const AxisState& state = *out.state;
     const std::int64_t claimed = state.position.count();

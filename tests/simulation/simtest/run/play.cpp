@@ -15,11 +15,11 @@ void check_slides(Bench& bench, const Counts& at) {
     for (std::size_t i = 0; i < at.size() && !bench.over(); ++i) {
         const MotorConfig& motor = bench.kinematics().motors()[i];
         const bool was_pushed = may_be_stopped(bench.recording(), i, bench.recording().began, bench.vm().now());
-        if (motor.homing.in_place && was_pushed) { continue; }
+        const bool in_place = !row_of(motor.homing.way).searches;
+        if (in_place && was_pushed) { continue; }
         const double mm = static_cast<double>(at[i]) / motor.steps_per_mm;
         const double is = bench.vm().device(i).plant().position_mm();
-        const std::int64_t most =
-            motor.homing.in_place ? most_following_error(motor) : 2;  // as exactly as it was put there
+        const std::int64_t most = in_place ? most_following_error(motor) : 2;  // as exactly as it was put there
         if (std::abs(is - mm) * motor.steps_per_mm > static_cast<double>(most)) {
             bench.object("place",
                          motor.name + " stands at " + std::to_string(is) + " mm instead of " + std::to_string(mm));

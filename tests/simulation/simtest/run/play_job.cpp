@@ -64,10 +64,10 @@ double homing_seconds(const Bench& bench) {
     constexpr double kMovesByTouch = 20;
     double seconds = bench.protocol_seconds();
     for (const MotorConfig& motor : bench.kinematics().motors()) {
-        if (!motor.homing.in_place) { seconds += homing_seconds(motor, bench.map().any_is_curved()); }
+        if (row_of(motor.homing.way).searches) { seconds += homing_seconds(motor, bench.map().any_is_curved()); }
     }
     for (const AxisConfig& axis : bench.machine().axes) {
-        if (axis.homing.input.empty()) { continue; }
+        if (!row_of(axis.homing.way).runs_programs) { continue; }
         seconds += homing_seconds(axis, bench.map().any_is_curved()) + kMovesByTouch * bench.protocol_seconds();
     }
     return seconds;
@@ -145,7 +145,7 @@ void put_to_park(Bench& bench) {
     const AxisSet by_touch = homed_by_touch(bench);
     for (std::size_t m = 0; m < bench.kinematics().motors().size(); ++m) {
         const MotorConfig& motor = bench.kinematics().motors()[m];
-        if (!motor.homing.in_place || has_axis(by_touch, m)) { continue; }
+        if (row_of(motor.homing.way).searches || has_axis(by_touch, m)) { continue; }
         const double off_mm = motor.homing.park_mm - bench.vm().device(m).plant().position_mm();
         const std::int64_t steps = std::llround(off_mm * motor.steps_per_mm);
         if (std::abs(steps) <= most_following_error(motor)) { continue; }  // a homed motor would not notice
@@ -224,7 +224,8 @@ void play_homing(Bench& bench, Counts& at, const std::optional<HomingStop>& stop
     job.end_step = bench.steps_made();
     job.outcome = bench.watch().outcome().value_or(JobOutcome::Failed);
     for (std::size_t i = 0; i < at.size(); ++i) {
-        const bool in_place = bench.kinematics().motors()[i].homing.in_place && bench.watch().motors()[i].homed;
+        const bool searches = row_of(bench.kinematics().motors()[i].homing.way).searches;
+        const bool in_place = !searches && bench.watch().motors()[i].homed;
         if (job.end_step[i] == job.first_step[i] && !in_place) { continue; }  // it was not reached
         at[i] = place_after_homing(bench, i, job.outcome);
     }

@@ -239,7 +239,7 @@ TEST_F(DeltaWithStandby, FinishesItsCircleAfterATakeover) {
 
 MachineConfig delta_without_switches() {
     MachineConfig machine = delta_machine();
-    for (AxisConfig& axis : machine.axes) { axis.homing.in_place = true; }
+    for (AxisConfig& axis : machine.axes) { axis.homing.way = HomingWay::InPlace; }
     return machine;
 }
 

@@ -25,7 +25,7 @@ inline MachineConfig two_belts() {
         AxisConfig& axis = machine.axes[i];
         axis.motors = {{.name = i == 0 ? "A" : "B", .host = "", .steps_per_mm = axis.steps_per_mm, .plant = {}}};
         axis.steps_per_mm *= 16;
-        axis.homing.in_place = true;
+        axis.homing.way = HomingWay::InPlace;
         axis.homing.park_mm = axis.plant.start_position_mm = 5;
     }
     machine.kinematics.core_xy = {.first = "X", .second = "Y"};

@@ -12,7 +12,7 @@ InputConfig switch_at(const std::string& name, const std::string& motor) {
 }
 
 void put_at(AxisConfig& axis, double start_mm, const std::string& input) {
-    axis.homing.in_place = false;
+    axis.homing.way = HomingWay::ByTouch;
     axis.homing.input = input;
     axis.homing.park_mm = 5;
     axis.plant.start_position_mm = start_mm;

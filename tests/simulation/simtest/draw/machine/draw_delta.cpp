@@ -146,7 +146,7 @@ private:
         for (std::size_t k = 0; k < kAxes; ++k) {
             AxisConfig& axis = this->axis(k);
             axis.homing.sequence = homing.sequence;
-            axis.homing.in_place = in_place;
+            axis.homing.way = in_place ? HomingWay::InPlace : HomingWay::BySwitch;
             if (k < 2) {  // without effect
                 axis.homing.switch_position_mm = axis.homing.toward_min ? axis.position_min_mm : axis.position_max_mm;
             }

@@ -38,7 +38,7 @@ void give_several_motors(Draw& draw, const ProtocolTiming& timing, AxisConfig& a
 }
 
 void home_in_place(AxisConfig& axis, int sequence) {
-    axis.homing.in_place = true;
+    axis.homing.way = HomingWay::InPlace;
     axis.homing.sequence = sequence;
     axis.plant.start_position_mm = axis.homing.park_mm;
 }

@@ -45,6 +45,7 @@ bool give_switch(Draw& draw, AxisConfig& axis, MachineConfig& machine) {
     slower.homing.search_velocity_mm_s = std::min(axis.homing.search_velocity_mm_s, most);
     slower.homing.latch_velocity_mm_s = std::min(axis.homing.latch_velocity_mm_s, slower.homing.search_velocity_mm_s);
     if (search_slots(slower, machine.timing) > kMostSlots) { return false; }
+    slower.homing.way = HomingWay::ByTouch;
     slower.homing.input = input->name;
     axis = slower;
     machine.inputs.push_back(*input);
@@ -52,7 +53,8 @@ bool give_switch(Draw& draw, AxisConfig& axis, MachineConfig& machine) {
 }
 
 bool shares_motors(const MachineConfig& machine) {
-    return machine.axes.size() >= 2 && machine.axes[0].homing.in_place && machine.axes[1].homing.in_place;
+    const auto is_in_place = [](const AxisConfig& axis) { return axis.homing.way == HomingWay::InPlace; };
+    return machine.axes.size() >= 2 && is_in_place(machine.axes[0]) && is_in_place(machine.axes[1]);
 }
 
 /// Axes that share motors are homed in place, at their parks, or both by touch, from near their switches.
@@ -60,7 +62,6 @@ void give_switches_to_first_two(Draw& draw, MachineConfig& machine) {
     MachineConfig changed = machine;
     for (std::size_t i = 0; i < 2; ++i) {
         AxisConfig& axis = changed.axes[i];
-        axis.homing.in_place = false;
         if (!give_switch(draw, axis, changed)) { return; }
         const double travel = axis.position_max_mm - axis.position_min_mm;
         const double off = draw.real(-0.5, 1) * std::min(0.5 * travel, axis.homing.search_velocity_mm_s);
@@ -77,7 +78,7 @@ MachineConfig with_touches(std::uint64_t seed, MachineConfig machine) {
     const std::vector<AxisConfig> axes = machine.axes;
     for (std::size_t i = 0; i < axes.size(); ++i) {
         AxisConfig& axis = machine.axes[i];
-        if (axis.motors.size() >= 2 || axis.homing.in_place || !draw.chance(0.5)) { continue; }
+        if (axis.motors.size() >= 2 || axis.homing.way == HomingWay::InPlace || !draw.chance(0.5)) { continue; }
         (void)give_switch(draw, axis, machine);
     }
     if (shares_motors(machine) && draw.chance(0.8)) { give_switches_to_first_two(draw, machine); }
