@@ -54,10 +54,8 @@ std::string reopen_text(std::uint8_t reason) {
 }
 
 std::string homing_text(std::int64_t stage) {
-    constexpr std::array<std::string_view, 6> kStages{"ended",   "searches the switch", "pulls off", "latches", "parks",
-                                                      "releases"};
-    const bool is_known = stage >= 0 && stage < static_cast<std::int64_t>(kStages.size());
-    return "homing: " + (is_known ? std::string(kStages[static_cast<std::size_t>(stage)]) : "stage " + numbered(stage));
+    if (stage < 0 || stage >= std::ssize(kHomingStages)) { return "homing: stage " + numbered(stage); }
+    return "homing: " + in_words(kHomingStages[static_cast<std::size_t>(stage)], "the switch");
 }
 
 std::string phase_text(const Incident& incident, const Entry& entry) {

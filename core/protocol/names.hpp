@@ -13,11 +13,6 @@ constexpr std::string_view name_of(AxisPhase phase) {
     return pick_name({"Initialize", "Standby", "Accelerate", "Cruise", "Decelerate", "Stop", "Fault"}, phase);
 }
 
-/// As logs and reports name them.
-constexpr std::string_view name_of(HomingStage stage) {
-    return pick_name({"idle", "search", "pull-off", "latch", "park", "release"}, stage);
-}
-
 constexpr std::string_view name_of(MachinePhase phase) {
     return pick_name(
         {"Waiting", "Idle", "Homing", "Running", "Holding", "Paused", "Stopping", "Fault", "Standby", "Jogging"},

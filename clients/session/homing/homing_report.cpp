@@ -29,11 +29,9 @@ void add_by_touch(const HomedByTouch& homing, const MachineConfig& machine, prot
 std::string in_words(const proto::HomingReport& homing) {
     const std::string name = homing.switch_().empty() ? "its switch" : homing.switch_();
     const std::string with_state = name + (!homing.has_closed() ? "" : homing.closed() ? " (closed)" : " (open)");
-    if (homing.stage() == name_of(HomingStage::Search)) { return "searches " + with_state; }
-    if (homing.stage() == name_of(HomingStage::PullOff)) { return "moves off " + name; }
-    if (homing.stage() == name_of(HomingStage::Latch)) { return "touches " + with_state + " slowly"; }
-    if (homing.stage() == name_of(HomingStage::Park)) { return "parks"; }
-    return "leaves " + with_state;
+    const auto stage = std::ranges::find(kHomingStages, homing.stage(), &HomingStageRow::name);
+    if (stage == kHomingStages.end()) { return homing.stage(); }
+    return in_words(*stage, stage->asks_switch ? with_state : name);
 }
 
 /// `moving`: the names of those in a part of homing.
