@@ -220,8 +220,9 @@ function powerPicture(host, map, lengths, label) {
   host.append(make("figure", {}, make("figcaption", {}, make("b", {}, label)), canvas));
 }
 
-// The distribution of step time errors: a bar for each class, its length the logarithm of the number of steps.
-function barChart(host, axes) {
+// A distribution for each axis: a bar for each class of values, its length the logarithm of what it counts.
+// `shown`: the values (of), their unit, and what is counted (counts).
+function barChart(host, axes, shown) {
   const most = Math.log10(1 + Math.max(1, ...axes.flatMap((axis) => axis.counts)));
   const rows = [];
   for (const axis of axes) {
@@ -232,6 +233,6 @@ function barChart(host, axes) {
       rows.push(make("tr", {}, make("td", {}, axis.name), make("td", {}, axis.classes[i]), make("td", {}, count(number)), make("td", { className: "text" }, bar)));
     });
   }
-  const heads = ["axis", "step time error, \u00b5s", "steps", ""].map((head) => make("th", {}, head));
+  const heads = ["axis", `${shown.of}, ${shown.unit}`, shown.counts, ""].map((head) => make("th", {}, head));
   host.append(inBox(make("table", {}, make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...rows))));
 }

@@ -283,7 +283,8 @@ function stepTimes() {
   if (charts.step_times.length === 0) { return; }
   const isExact = charts.step_times.every((axis) => axis.counts.every((number, i) => i === 0 || number === 0));
   const words = isExact ? "Every step that was compared is at its commanded tick." : "A bar's length is the logarithm of the number of steps.";
-  barChart(section("Differences between step times and commanded times", make("p", { className: "soft" }, words)), charts.step_times);
+  const host = section("Differences between step times and commanded times", make("p", { className: "soft" }, words));
+  barChart(host, charts.step_times, { of: "step time error", unit: "\u00b5s", counts: "steps" });
 }
 
 jobs();
