@@ -5,8 +5,9 @@ Usage: check_documents.py ROOT [--fix]
 
 Every document is a .md file. In backticks, a word with a slash that begins with one of the tree's folders is a path; a word
 that ends with a source file's suffix is a file's name; `file`: `Name::function` is a function in that file; `CamelCase` is a
-name in the code; `5 (`kName`)` is a constant and its value. Types in docs/words.md are declared once in core. --fix renames
-a path whose file was moved, where only one file has its name.
+name in the code; `Name::member` is declared in the class, structure or enumeration Name, or in a base of it; `5 (`kName`)` is
+a constant and its value. Types in docs/words.md are declared once in core. --fix renames a path whose file was moved, where
+only one file has its name.
 """
 import argparse
 import collections
@@ -18,12 +19,15 @@ import sys
 GIT_FILES = ["git", "-c", "safe.directory=*", "ls-files", "-co", "--exclude-standard"]  # accepts a clone of any owner
 MOST_LINES = {"README.md": 150, "ARCHITECTURE.md": 250}
 MOST_PICTURE_BYTES = 150_000
+MOST_BLOCK = 60_000  # characters of a class
 UNITS = {None: 1, " KiB": 1 << 10, " MiB": 1 << 20}
 FOLDERS = "core|sim_fpga|idl|services|clients|deploy|tests|docs"
 PATH = re.compile(rf"`((?:{FOLDERS})/[\w./@-]*)`")
 NAME = re.compile(r"`([\w-]+\.(?:hpp|cpp|inc|py|proto|idl|lcm|pml|js))`")
 FUNCTION = re.compile(rf"`((?:{FOLDERS})/[\w./-]+)`:\s+`([A-Za-z_][\w:]*)`")
-TYPE = re.compile(r"`([A-Z][a-z]+[A-Z]\w*(?:::\w+)?)`")
+TYPE = re.compile(r"`([A-Z][a-z]+[A-Z]\w*)(?:::\w+)*`")
+MEMBER = re.compile(r"`(?:\w+::)*([A-Z]\w*)::(~?\w+)`")
+BLOCK = re.compile(r"\b(?:class|struct|enum class|enum) (\w+)\b([^;{}()]*)\{")
 CONSTANT = re.compile(r"(\d[\d,]*)( [KM]iB)?[^|`()\d]* \(`(k[A-Z]\w*)`\)")
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 
@@ -40,6 +44,34 @@ class Tree:
             self.by_name[file.rsplit("/", 1)[-1]].append(file)
         self.code = "\n".join((root / f).read_text() for f in self.files if f.endswith((".hpp", ".cpp", ".inc", ".lcm", ".idl")))
         self.words = set(re.findall(r"\w+", self.code))
+        self.blocks = collections.defaultdict(list)  # of classes, structures and enumerations
+        for block in BLOCK.finditer(self.code):
+            self.blocks[block.group(1)].append(block)
+
+    def declares(self, name, member):
+        """Whether a class, structure or enumeration of this name, or a base of it, declares the member."""
+        for found in self.blocks[name]:
+            body = self.outer_text(found.end())
+            if re.search(rf"\b{member}\b", body):
+                return True
+            rows = re.findall(r"^\s*(LOCKSTEP_\w+)\(X\)", body, re.MULTILINE)  # its values are the rows of a table
+            tables = [re.search(rf"#define {table}\(X\)((?:.*\\\n)*.*)", self.code).group(1) for table in rows]
+            if any(re.search(rf"X\({member}\b", table) for table in tables):
+                return True
+            if any(self.declares(base, member) for base in re.findall(r"\b[A-Z]\w+", found.group(2))):
+                return True
+        return False
+
+    def outer_text(self, at):
+        """The text of a block that begins there, without the blocks inside it and without comments."""
+        depth, text = 1, []
+        for part in re.finditer(r"//[^\n]*|[{}]|[^{}/]+|/", self.code[at : at + MOST_BLOCK]):
+            depth += {"{": 1, "}": -1}.get(part.group(), 0)
+            if depth == 0:
+                break
+            if depth == 1 and not part.group().startswith("//"):
+                text.append(part.group())
+        return "".join(text)
 
     def documents(self):
         return [f for f in self.files if f.endswith(".md")]
@@ -99,8 +131,11 @@ def breaches(tree, document):
         if tree.has(function.group(1)) and not tree.defines(*function.groups()):
             yield line_of(function), f"{function.group(1)} has no {function.group(2)}"
     for name in TYPE.finditer(text):
-        if not set(name.group(1).split("::")) <= tree.words:
+        if name.group(1) not in tree.words:
             yield line_of(name), f"the code has no {name.group(1)}"
+    for member in MEMBER.finditer(text):
+        if not tree.declares(*member.groups()):
+            yield line_of(member), f"{member.group(1)} declares no {member.group(2)}"
     for constant in CONSTANT.finditer(text):
         number, unit, name = constant.groups()
         if int(number.replace(",", "")) * UNITS[unit] not in tree.values(name):
@@ -108,12 +143,14 @@ def breaches(tree, document):
 
 
 def words(tree):
-    """Types of docs/words.md that core declares more than once: their name alone would not tell what they are."""
+    """Types in the last column of docs/words.md that core does not declare once: their name alone would not tell what they are."""
     core = "\n".join((tree.root / f).read_text() for f in tree.files if f.startswith("core/") and f.endswith((".hpp", ".cpp")))
-    for word in FUNCTION.finditer((tree.root / "docs/words.md").read_text()):
-        declared = re.findall(rf"^\s*(?:struct|class|enum class|using) {word.group(2)}\b(?!::)[^;]*?[{{=:]", core, re.MULTILINE)
-        if len(declared) > 1:
-            yield f"docs/words.md:1: core declares {word.group(2)} {len(declared)} times; a word has one meaning"
+    cells = re.findall(r"\|([^|\n]*)\|$", (tree.root / "docs/words.md").read_text(), re.MULTILINE)
+    types = dict.fromkeys(name for cell in cells for name in re.findall(r"`([A-Z]\w*)`", cell))
+    for name in types:
+        declared = re.findall(rf"^\s*(?:struct|class|enum class|using) {name}\b(?!::)[^;]*?[{{=:]", core, re.MULTILINE)
+        if len(declared) != 1:
+            yield f"docs/words.md:1: core declares {name} {len(declared)} times; it must be once, so that a word has one meaning"
 
 
 def unlinked(tree):
