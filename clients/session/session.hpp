@@ -78,6 +78,8 @@ public:
     /// The program to send. receive() sends what is due.
     ProgramUpload& upload() { return upload_; }
     const ProgramUpload& upload() const { return upload_; }
+    /// See ProgramUpload::is_overdue.
+    bool is_upload_overdue() { return upload_.is_overdue(owner_.sight(), owner_.running_time()); }
     // One writer at a time may move and change the machine: while a writer holds the lease, only its commands are
     // accepted. While nobody holds it, the commands of every client are accepted.
     /// receive() keeps the lease: a client that does not receive for kLeaseSilence_ms loses it.

@@ -20,7 +20,6 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kReceivedPatience = 5s;   // for an axis that the coordinator receives: this process will, too
 constexpr nanoseconds kAbsentPatience = 500ms;  // for an axis that the coordinator does not receive
-constexpr nanoseconds kDiskPatience = 15s;      // a disk may hang for seconds
 
 std::size_t motors_of(const Session& session) { return session.received().kinematics().motors().size(); }
 
@@ -46,13 +45,9 @@ bool is_requested(const StopSignal* stop) { return stop != nullptr && stop->requ
 
 /// Waits until `done` returns true, as long as the coordinator answers.
 std::expected<void, Failure> await_parts(Session& session, const std::function<bool()>& done, const StopSignal* stop) {
-    const nanoseconds begin = session.owner().running_time();
     while (!done()) {
         if (is_requested(stop)) { return std::unexpected(interrupted()); }
-        const nanoseconds answered = std::max(begin, session.upload().answered().value_or(begin));
-        if (session.owner().running_time() - answered > CommandTracker::kPlanPatience) {
-            return std::unexpected(silence(session));
-        }
+        if (session.is_upload_overdue()) { return std::unexpected(silence(session)); }
         session.receive(50ms);
         if (const auto& refusal = session.upload().sender()->refusal()) {
             return std::unexpected(failed(refusal->text));

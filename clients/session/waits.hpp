@@ -13,6 +13,8 @@
 namespace lockstep {
 
 inline constexpr std::chrono::seconds kReachPatience{3};
+inline constexpr std::chrono::seconds kDiskPatience{15};        // a disk may hang for seconds
+inline constexpr std::chrono::milliseconds kGivePatience{300};  // for the answer to a lease that is given back
 
 /// The failure of a client that receives no coordinator. It names the motors that are received, and the remedy.
 Failure silence(const Session& session);

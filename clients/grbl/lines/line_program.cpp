@@ -47,6 +47,7 @@ bool LineProgram::is_sent_since(std::chrono::nanoseconds age, std::chrono::nanos
 LineProgram::Outcome LineProgram::begin(bool is_held) {
     if (!run_) {
         const bool is_known = is_run_whole_ ? sender_.is_done() : sender_.parts_taken() > 0;
+        if (!is_known && port_.is_overdue()) { return lose(CommandTracker::kNoAnswer); }
         if (is_held || !is_known) { return Outcome::Goes; }
         run_.emplace(Command{.kind = CommandKind::Run, .program = sender_.program()});
     }

@@ -16,6 +16,8 @@ public:
     virtual ProgramSender& open(const ProgramHead& head) = 0;
     /// Sends no more of the program. Its sender is no longer valid.
     virtual void close() = 0;
+    /// See ProgramUpload::is_overdue.
+    virtual bool is_overdue() = 0;
     /// Call in each loop until the command is over. Sends the command when that is due.
     virtual CommandStep follow(CommandTracker& tracker) = 0;
 };

@@ -10,6 +10,6 @@ LeaseTurn::LeaseTurn(Session& session, bool takes_over, const StopSignal* stop) 
     answer_ = take_lease(session_, takes_over, stop);
 }
 
-LeaseTurn::~LeaseTurn() { give_lease(session_, std::chrono::milliseconds{300}); }
+LeaseTurn::~LeaseTurn() { give_lease(session_, kGivePatience); }
 
 }  // namespace lockstep

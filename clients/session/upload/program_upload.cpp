@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "clients/session/follow/command_tracker.hpp"
 #include "clients/session/follow/random_identity.hpp"
 
 namespace lockstep {
@@ -11,6 +12,7 @@ ProgramSender& ProgramUpload::open(const ProgramHead& head, const std::optional<
     const std::uint64_t id = random_identity() | 1;  // never 0, which means none
     feed_ = std::move(feed);
     answered_.reset();
+    received_.reset();
     return sender_.emplace(client_, ++programs_, id, head, values);
 }
 
@@ -29,6 +31,12 @@ bool ProgramUpload::take_answer(const Reply& reply, std::chrono::nanoseconds now
     const bool is_of_program = sender_ && sender_->take_answer(reply);
     if (is_of_program) { answered_ = now; }
     return is_of_program;
+}
+
+bool ProgramUpload::is_overdue(const OwnerSight& owner, std::chrono::nanoseconds now) {
+    if (!answered_) { answered_ = now; }
+    if (!received_ || !owner.is_silent) { received_ = now; }
+    return now - *answered_ > CommandTracker::kPlanPatience || now - *received_ > CommandTracker::kPatience;
 }
 
 }  // namespace lockstep

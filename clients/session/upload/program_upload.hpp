@@ -1,5 +1,5 @@
-// The program that a client sends, one at a time: its sender, what feeds it, and when the coordinator last answered.
-// The caller passes the time.
+// The program that a client sends, one at a time: its sender, what feeds it, and for how long the client waits for the
+// coordinator. The caller passes the time.
 #pragma once
 
 #include <chrono>
@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "clients/session/follow/owner_watch.hpp"
 #include "clients/session/upload/program_sender.hpp"
 
 namespace lockstep {
@@ -31,17 +32,19 @@ public:
     const ProgramSender* sender() const { return sender_ ? &*sender_ : nullptr; }
     /// Feeds the sender and returns the chunks to send now.
     std::vector<ProgramChunk> due(std::chrono::nanoseconds now);
-    /// Returns false if the reply answers something else.
+    /// Returns false if the reply answers something else. `now`: OwnerWatch::running_time().
     bool take_answer(const Reply& reply, std::chrono::nanoseconds now);
-    /// The `now` of the last answer; nullopt if none has come to this program.
-    std::optional<std::chrono::nanoseconds> answered() const { return answered_; }
+    /// True if the owner is silent for CommandTracker::kPatience, or publishes states and has not answered for
+    /// kPlanPatience. Call it in each loop of a wait for the coordinator. `now`: as in take_answer().
+    bool is_overdue(const OwnerSight& owner, std::chrono::nanoseconds now);
 
 private:
     Identity client_;
     std::uint32_t programs_ = 0;  // begun so far
     std::optional<ProgramSender> sender_;
     Feed feed_;
-    std::optional<std::chrono::nanoseconds> answered_;
+    std::optional<std::chrono::nanoseconds> answered_;  // or when the wait for the first answer began
+    std::optional<std::chrono::nanoseconds> received_;  // when the owner was last not silent, or the wait began
 };
 
 }  // namespace lockstep

@@ -22,7 +22,7 @@ public:
     void use(const LeaseUse& use) { use_lease(session_, use); }
     void give() { give_lease(session_); }
     /// Gives the lease back and waits briefly for the coordinator's answer. Call it at the end.
-    void end() { give_lease(session_, std::chrono::milliseconds{300}); }
+    void end() { give_lease(session_, kGivePatience); }
 
     bool is_held() const { return session_.lease().is_held(); }
     /// Why a command that waits for the lease has failed: another writer has the lease, or the coordinator does not

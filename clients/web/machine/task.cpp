@@ -8,12 +8,6 @@
 namespace lockstep::web {
 namespace {
 
-using namespace std::chrono_literals;
-using std::chrono::nanoseconds;
-
-constexpr nanoseconds kPatience = CommandTracker::kPatience;
-constexpr nanoseconds kDiskPatience = 15s;
-
 Problem refused_by(const Reply& reply) { return refused(reply.fault, reply.text); }
 
 Outcome outcome_of(const Reply& reply) {
@@ -35,7 +29,7 @@ bool LeaseTask::poll(Session& session) {
     const HeldLease* lease = session.writer();
     const bool is_writer = lease != nullptr && lease->writer.id == session.lease().writer().id;
     if (is_writer == takes_ && !session.is_silent()) { return end(Accepted{}); }
-    return session.owner().running_time() - *begun_ > kPatience &&
+    return session.owner().running_time() - *begun_ > CommandTracker::kPatience &&
            end(std::unexpected(unanswered(silence_of(session))));
 }
 
@@ -53,9 +47,8 @@ bool CommandTask::poll(Session& session) {
 
 bool RunTask::poll(Session& session) {
     if (command_) { return command_->poll(session); }
-    if (!sent_) {
+    if (id_ == 0) {
         id_ = session.upload().open(program_.head, program_.values, std::move(program_.feed)).program();
-        sent_ = session.owner().running_time();
         return false;
     }
     const ProgramSender& sender = *session.upload().sender();
@@ -69,10 +62,7 @@ bool RunTask::poll(Session& session) {
         command_ = std::make_unique<CommandTask>(Command{.kind = CommandKind::Run, .program = id_}, done);
         return false;
     }
-    if (session.owner().running_time() - *sent_ <= (is_planned_whole ? CommandTracker::kPlanPatience : kPatience)) {
-        return false;
-    }
-    return end(std::unexpected(unanswered(silence_of(session))));
+    return session.is_upload_overdue() && end(std::unexpected(unanswered(silence_of(session))));
 }
 
 bool ValuesTask::begin(Session& session) {
@@ -95,10 +85,12 @@ bool ValuesTask::poll(Session& session) {
     const ProgramSender& sender = *session.upload().sender();
     if (sender.refusal()) { return end(std::unexpected(refused_by(*sender.refusal()))); }
     if (sender.is_done() && session.values().is_kept(revision_)) { return end(Accepted{}); }
-    if (session.owner().running_time() - *sent_ <= (sender.is_done() ? kDiskPatience : kPatience)) { return false; }
-    return end(std::unexpected(unanswered(
-        sender.is_done() ? "the coordinator has not reported that the change is on its disk; its log names the reason"
-                         : silence_of(session))));
+    if (!sender.is_done()) {
+        return session.is_upload_overdue() && end(std::unexpected(unanswered(silence_of(session))));
+    }
+    return session.owner().running_time() - *sent_ > kDiskPatience &&
+           end(std::unexpected(unanswered(
+               "the coordinator has not reported that the change is on its disk; its log names the reason")));
 }
 
 }  // namespace lockstep::web

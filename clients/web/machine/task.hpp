@@ -67,8 +67,7 @@ public:
 private:
     ReadyProgram program_;
     Begun begun_;
-    std::optional<std::chrono::nanoseconds> sent_;
-    std::uint64_t id_ = 0;
+    std::uint64_t id_ = 0;  // 0: nothing is sent yet
     std::unique_ptr<CommandTask> command_;
 };
 

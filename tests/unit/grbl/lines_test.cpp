@@ -367,5 +367,24 @@ TEST_F(LaiLines, AreRunWhenAProgramOfThemIsWhole) {
     EXPECT_EQ(count(answers(), "ok"), 6);
 }
 
+TEST_F(Lines, WaitForACoordinatorThatTakesThemLate) {
+    sender->port().loses_parts = true;
+    sender->send("G1 X12 F600\n");
+    pass(20);
+    EXPECT_THAT(answers(), Not(HasSubstr("ALARM")));
+    sender->port().loses_parts = false;
+    EXPECT_TRUE(becomes_idle(5));
+    EXPECT_EQ(counts()[0], 1200);
+}
+
+TEST_F(Lines, AreLostWithACoordinatorThatTakesNone) {
+    sender->port().loses_parts = sender->port().is_silent = true;
+    sender->send("G1 X12 F600\n");
+    pass(2);
+    EXPECT_THAT(answers(), Not(HasSubstr("ALARM")));
+    pass(2);
+    EXPECT_THAT(answers(), HasSubstr("ALARM:3"));
+}
+
 }  // namespace
 }  // namespace lockstep::grbl

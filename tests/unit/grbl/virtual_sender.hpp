@@ -10,6 +10,7 @@
 
 #include "clients/grbl/lines/line_runner.hpp"
 #include "clients/grbl/protocol/grbl.hpp"
+#include "clients/session/upload/program_upload.hpp"
 #include "services/coordinator/program_inbox.hpp"
 #include "tests/unit/virtual/rig.hpp"
 
@@ -20,39 +21,40 @@ class VirtualPort : public MachinePort {
 public:
     VirtualPort(VirtualMachine& machine, Identity client) : machine_(machine), client_(client) {}
 
-    ProgramSender& open(const ProgramHead& head) override {
-        ++programs_;
-        return sender_.emplace(client_, programs_, client_ * 1000 + programs_, head);
-    }
-    void close() override { sender_.reset(); }
+    ProgramSender& open(const ProgramHead& head) override { return upload_.open(head); }
+    void close() override { upload_.close(); }
+    bool is_overdue() override { return upload_.is_overdue({.is_silent = is_silent}, now()); }
     CommandStep follow(CommandTracker& tracker) override {
         if (!tracker.is_numbered()) { tracker.number(client_, ++sequence_, 0); }
         const OwnerSight owner{.owner = machine_.state()->term};
-        const std::chrono::nanoseconds now{machine_.now().value * 1000};
-        const CommandStep step = tracker.pass(reply_to(tracker.command()), owner, now);
+        const CommandStep step = tracker.pass(reply_to(tracker.command()), owner, now());
         if (step == CommandStep::Send) { machine_.send(tracker.command()); }
         return step;
     }
 
     /// Sends the parts of the program that are due, and takes the replies.
-    void pump(std::chrono::nanoseconds now) {
+    void pump() {
         for (; seen_ < machine_.replies().size(); ++seen_) {
             Reply reply = machine_.replies()[seen_];
             const auto chunk = chunks_.find(reply.sequence);
-            if (!sender_ || chunk == chunks_.end() || reply.client == client_) { continue; }
+            if (loses_parts || chunk == chunks_.end() || reply.client == client_) { continue; }
             reply.client = client_;
             reply.sequence = chunk->second;
-            (void)sender_->take_answer(reply);
+            (void)upload_.take_answer(reply, now());
         }
-        if (!sender_) { return; }
-        for (const ProgramChunk& chunk : sender_->due(now)) {
+        for (const ProgramChunk& chunk : upload_.due(now())) {
+            if (loses_parts) { continue; }
             auto part = inbox_.read(chunk);
             ASSERT_TRUE(part);
             chunks_[machine_.send(*std::move(part))] = chunk.sequence;
         }
     }
 
+    bool loses_parts = false;  // the coordinator takes no part of a program
+    bool is_silent = false;    // the client receives no state of the coordinator
+
 private:
+    std::chrono::nanoseconds now() const { return std::chrono::nanoseconds{machine_.now().value * 1000}; }
     const Reply* reply_to(const Command& command) const {
         for (const Reply& reply : machine_.replies()) {
             if (reply.client == client_ && reply.sequence == command.sequence) { return &reply; }
@@ -63,8 +65,7 @@ private:
     VirtualMachine& machine_;
     Identity client_;
     std::uint64_t sequence_ = 0;
-    std::uint32_t programs_ = 0;
-    std::optional<ProgramSender> sender_;
+    ProgramUpload upload_{client_};
     ProgramInbox inbox_;
     std::map<std::uint64_t, std::uint64_t> chunks_;  // the program's numbers by the network's numbers
     std::size_t seen_ = 0;                           // replies
@@ -81,9 +82,10 @@ public:
     }
 
     void send(const std::string& bytes) { grbl_.receive(bytes); }
+    VirtualPort& port() { return port_; }
     void pass() {
         const std::chrono::nanoseconds now{machine_.now().value * 1000};
-        port_.pump(now);
+        port_.pump();
         carry_out();
         lines_.pass(*machine_.state(), rests(), now);
         if (const auto why = lines_.take_loss()) { grbl_.abort(*why); }

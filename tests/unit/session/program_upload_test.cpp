@@ -28,9 +28,7 @@ TEST(ProgramUpload, FeedsTheSenderUntilTheProgramEnds) {
     (void)upload.due(2ms);
     EXPECT_EQ(fed, 2);
     ASSERT_EQ(chunks.size(), 1u);
-    EXPECT_FALSE(upload.answered());
     EXPECT_TRUE(upload.take_answer(answer_to(chunks[0]), 3s));
-    EXPECT_EQ(upload.answered(), 3s);
     EXPECT_TRUE(sender.is_done());
 }
 
@@ -45,6 +43,30 @@ TEST(ProgramUpload, AnotherProgramHasAnotherIdAndIgnoresOldAnswers) {
     upload.close();
     EXPECT_EQ(upload.sender(), nullptr);
     EXPECT_TRUE(upload.due(2s).empty());
+}
+
+TEST(ProgramUpload, WaitsLongForACoordinatorThatPublishesStates) {
+    ProgramUpload upload{7};
+    upload.open(kHead).end();
+    const auto chunks = upload.due(0s);
+    EXPECT_FALSE(upload.is_overdue({}, 10s)) << "the wait begins with the first question";
+    EXPECT_FALSE(upload.is_overdue({}, 70s));
+    EXPECT_TRUE(upload.is_overdue({}, 71s));
+    EXPECT_TRUE(upload.take_answer(answer_to(chunks[0]), 80s));
+    EXPECT_FALSE(upload.is_overdue({}, 140s)) << "each answer begins it again";
+    EXPECT_TRUE(upload.is_overdue({}, 141s));
+    upload.open(kHead);
+    EXPECT_FALSE(upload.is_overdue({}, 141s)) << "and so does another program";
+}
+
+TEST(ProgramUpload, DoesNotWaitLongForASilentCoordinator) {
+    const OwnerSight silent{.is_silent = true};
+    ProgramUpload upload{7};
+    upload.open(kHead);
+    EXPECT_FALSE(upload.is_overdue(silent, 1s));
+    EXPECT_FALSE(upload.is_overdue({}, 4s));
+    EXPECT_FALSE(upload.is_overdue(silent, 7s));
+    EXPECT_TRUE(upload.is_overdue(silent, 8s));
 }
 
 }  // namespace
