@@ -10,8 +10,8 @@ bool does_probe(const Program& program) {
                                [](const Block& block) { return std::holds_alternative<Probe>(block.action); });
 }
 
-ProgramText::ProgramText(LineReader lines, const GcodeSetup& setup)
-    : lines_(std::move(lines)), gcode_(setup), head_(gcode_.head()), at_mm_(head_.start_mm) {}
+ProgramText::ProgramText(LineReader lines, const GcodeSetup& setup, std::string_view text)
+    : lines_(std::move(lines)), gcode_(setup, text), head_(gcode_.head()), at_mm_(head_.start_mm) {}
 
 const Block* ProgramText::block(std::uint32_t number) const {
     if (ends_before(number) || number < first_) { return nullptr; }
@@ -28,12 +28,17 @@ bool ProgramText::ends_before(std::uint32_t number) const {
     return number >= first_ + blocks_.size();
 }
 
-bool ProgramText::take_blocks(std::size_t count, std::vector<Block>& out) {
-    for (; count > 0 && !ends_before(first_); --count, ++first_) {
-        out.push_back(std::move(blocks_.front()));
-        blocks_.pop_front();
-    }
-    return count == 0;
+void ProgramText::pass_blocks(const std::function<bool(std::vector<Block>& blocks)>& take) {
+    bool goes_on = true;
+    pass_ = [&](std::vector<Block>& blocks) {
+        passed_ += blocks.size();
+        goes_on = goes_on && take(blocks);
+        blocks.clear();
+    };
+    gcode_.pass_on(pass_);
+    while (goes_on && errors_.empty() && read_line()) {}
+    gcode_.pass_on({});
+    pass_ = {};
 }
 
 const Diagnostics& ProgramText::errors() {
@@ -52,9 +57,9 @@ void ProgramText::touched(const ProbeTouch& touch) {
 
 void ProgramText::take_blocks() const {
     gcode_.take_blocks(taken_);
-    for (Block& block : taken_) {
-        if (errors_.empty()) { blocks_.push_back(std::move(block)); }
-    }
+    if (!errors_.empty()) { taken_.clear(); }
+    if (pass_) { pass_(taken_); }
+    std::ranges::move(taken_, std::back_inserter(blocks_));
     std::ranges::move(gcode_.take_notes(), std::back_inserter(notes_));
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <deque>
+#include <functional>
+#include <string_view>
 #include <vector>
 
 #include "core/gcode/gcode_stream.hpp"
@@ -15,10 +17,11 @@ namespace lockstep {
 bool does_probe(const Program& program);
 
 /// Blocks must be requested in order; blocks before the last requested one are dropped. No block follows the first line
-/// with an error. A subroutine must precede its call or be in a file of its name.
+/// with an error. Unless the whole text is given, a subroutine must precede its call or be in a file of its name.
 class ProgramText final : public ProgramBlocks {
 public:
-    ProgramText(LineReader lines, const GcodeSetup& setup);
+    /// `text`: the whole text, if it is known. It must outlive this.
+    ProgramText(LineReader lines, const GcodeSetup& setup, std::string_view text = {});
 
     const ProgramHead& head() const { return head_; }
     const std::vector<std::string>& axes() const override { return head_.axes; }
@@ -33,9 +36,12 @@ public:
     /// Begins that program: its blocks are numbered from 0, and it has another head(). Call when all blocks were read.
     void touched(const ProbeTouch& touch);
 
-    /// Moves the next blocks to the end of `out`, at most `count`, in place of requests of single blocks. Places are
-    /// then not known. Returns false if no block follows.
-    bool take_blocks(std::size_t count, std::vector<Block>& out);
+    /// Reads the text up to its end, or to the first line with an error. `take` gets the blocks of each line, in place
+    /// of requests of single blocks. A line of very many blocks, such as the end of a loop, is passed in several parts,
+    /// also if it has an error behind them. Ends behind the line at which `take` returns false. Places are not known.
+    void pass_blocks(const std::function<bool(std::vector<Block>& blocks)>& take);
+    /// How many blocks pass_blocks() has passed.
+    std::size_t passed() const { return passed_; }
 
     /// The errors by line and column, at most kMaxGcodeErrors. Reads on after the first line with an error.
     const Diagnostics& errors();
@@ -59,6 +65,8 @@ private:
     mutable std::vector<double> at_mm_;  // the place before blocks_
     mutable Diagnostics errors_;
     mutable std::vector<GcodeNote> notes_;
+    TakeBlocks pass_;  // within pass_blocks()
+    std::size_t passed_ = 0;
     mutable int line_ = 0;  // number of the last line read
     mutable bool is_over_ = false;
     mutable bool has_repeated_ = false;

@@ -1,5 +1,7 @@
 #include "clients/planning/read_ahead.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace lockstep {
@@ -18,15 +20,18 @@ void ReadAhead::stop() {
 
 /// The thread.
 void ReadAhead::read() {
-    for (bool goes_on = true; goes_on;) {
-        Batch batch;
-        batch.blocks.reserve(kBatchBlocks);
-        batch.is_last = !text_->take_blocks(kBatchBlocks, batch.blocks);
+    Batch batch;
+    const auto put_batch = [&] {
         batch.share_read = text_->share_read();
         batch.lines = text_->lines();
-        goes_on = !batch.is_last;
-        goes_on = put(std::move(batch)) && goes_on;
-    }
+        return put(std::exchange(batch, {}));
+    };
+    text_->pass_blocks([&](std::vector<Block>& blocks) {
+        std::ranges::move(blocks, std::back_inserter(batch.blocks));
+        return batch.blocks.size() < kBatchBlocks || put_batch();
+    });
+    batch.is_last = true;
+    (void)put_batch();
     const std::lock_guard lock(mutex_);
     is_over_ = true;
     changed_.notify_all();

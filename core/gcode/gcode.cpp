@@ -10,17 +10,12 @@ namespace {
 
 constexpr int kNoEnd = 0;  // lines are numbered from 1
 
-gcode::Setup setup_for(const GcodeSetup& setup, std::string_view text) {
-    gcode::Setup result = gcode::interpreter_setup(setup);
-    result.program = text;
-    return result;
-}
-
 /// Reads a text's lines until one ends the program, or there are too many errors.
 class GcodeReader {
 public:
     GcodeReader(std::string_view text, const GcodeSetup& setup, gcode::Sink sink)
-        : text_(text), interpreter_(setup_for(setup, text), gcode::start_state(setup), std::move(sink)) {}
+        : text_(text),
+          interpreter_(gcode::interpreter_setup(setup, text), gcode::start_state(setup), std::move(sink)) {}
 
     template <typename AfterLine>
     void read(int end, AfterLine after_line) {
@@ -49,10 +44,9 @@ private:
     bool repeated_ = false;
 };
 
-}  // namespace
-
-std::expected<GcodeReading, std::vector<GcodeError>> read_gcode(std::string_view text, const GcodeSetup& setup) {
-    gcode::ProgramBuilder builder(setup);
+/// Builds the program. Returns the values at its end.
+std::expected<gcode::KeptValues, std::vector<GcodeError>> build(std::string_view text, const GcodeSetup& setup,
+                                                                gcode::ProgramBuilder& builder) {
     GcodeReader* reading = nullptr;
     GcodeReader reader(text, setup, [&](const gcode::Action& action, int line) {
         builder.take(action, line, reading->interpreter());
@@ -64,9 +58,25 @@ std::expected<GcodeReading, std::vector<GcodeError>> read_gcode(std::string_view
         if (auto wrong = gcode::slow_feed(reader.interpreter())) { reader.report(*wrong); }
     });
     if (!reader.errors().empty()) { return std::unexpected(std::move(reader.errors())); }
+    return gcode::kept_values(reader.interpreter().state(), gcode::park_place(setup));
+}
+
+}  // namespace
+
+std::expected<GcodeReading, std::vector<GcodeError>> read_gcode(std::string_view text, const GcodeSetup& setup) {
+    gcode::ProgramBuilder builder(setup);
+    auto values = build(text, setup, builder);
+    if (!values) { return std::unexpected(std::move(values.error())); }
     GcodeReading result = std::move(builder).reading();
-    result.values = gcode::kept_values(reader.interpreter().state(), gcode::park_place(setup));
+    result.values = *std::move(values);
     return result;
+}
+
+std::vector<GcodeError> check_gcode(std::string_view text, const GcodeSetup& setup) {
+    gcode::ProgramBuilder builder(setup);
+    builder.blocks().pass_on([](std::vector<Block>& blocks) { blocks.clear(); });
+    auto values = build(text, setup, builder);
+    return values ? std::vector<GcodeError>{} : std::move(values.error());
 }
 
 std::expected<Program, std::vector<GcodeError>> parse_gcode(std::string_view text, const GcodeSetup& setup) {

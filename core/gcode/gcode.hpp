@@ -105,6 +105,9 @@ struct GcodeReading {
 std::expected<GcodeReading, std::vector<GcodeError>> read_gcode(std::string_view text, const GcodeSetup& setup);
 std::expected<Program, std::vector<GcodeError>> parse_gcode(std::string_view text, const GcodeSetup& setup);
 
+/// Returns the errors of the text, as read_gcode() does, in memory that does not depend on the number of blocks.
+std::vector<GcodeError> check_gcode(std::string_view text, const GcodeSetup& setup);
+
 /// Receives one action of a program, before arcs and splines are cut.
 using TakeAction = std::function<void(const gcode::Action& action, int line)>;
 /// Passes the program's actions to `take`, without checks of travel or devices.

@@ -9,10 +9,10 @@
 namespace lockstep {
 
 struct GcodeStream::Parts {
-    explicit Parts(const GcodeSetup& given)
+    Parts(const GcodeSetup& given, std::string_view text)
         : setup(given),
           builder(setup),
-          interpreter(gcode::interpreter_setup(setup), gcode::start_state(setup),
+          interpreter(gcode::interpreter_setup(setup, text), gcode::start_state(setup),
                       [this](const gcode::Action& action, int line) { take(action, line); }) {}
 
     void take(const gcode::Action& action, int line) {
@@ -34,7 +34,8 @@ struct GcodeStream::Parts {
     std::optional<GcodeError> wrong;  // in the present line
 };
 
-GcodeStream::GcodeStream(const GcodeSetup& setup) : parts_(std::make_unique<Parts>(setup)) {}
+GcodeStream::GcodeStream(const GcodeSetup& setup, std::string_view text)
+    : parts_(std::make_unique<Parts>(setup, text)) {}
 GcodeStream::~GcodeStream() = default;
 GcodeStream::GcodeStream(GcodeStream&&) noexcept = default;
 GcodeStream& GcodeStream::operator=(GcodeStream&&) noexcept = default;
@@ -59,9 +60,11 @@ std::expected<void, GcodeError> GcodeStream::finish() { return parts_->outcome(p
 
 bool GcodeStream::is_ended() const { return parts_->interpreter.ended(); }
 
-std::vector<Block> GcodeStream::take_blocks() { return parts_->builder.take_blocks(); }
+std::vector<Block> GcodeStream::take_blocks() { return parts_->builder.blocks().take(); }
 
-void GcodeStream::take_blocks(std::vector<Block>& blocks) { parts_->builder.take_blocks(blocks); }
+void GcodeStream::take_blocks(std::vector<Block>& blocks) { parts_->builder.blocks().take(blocks); }
+
+void GcodeStream::pass_on(TakeBlocks take) { parts_->builder.blocks().pass_on(std::move(take)); }
 
 std::vector<GcodeNote> GcodeStream::take_notes() { return parts_->builder.take_notes(); }
 

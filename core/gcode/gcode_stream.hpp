@@ -1,10 +1,11 @@
 // Reads a program line by line, for texts that do not fit in memory or are not complete yet.
 //
-// A subroutine must be before its call, or in a file of its name.
+// Unless the whole text is known, a subroutine must be before its call, or in a file of its name.
 #pragma once
 
 #include <memory>
 
+#include "core/gcode/built_blocks.hpp"
 #include "core/gcode/gcode.hpp"
 #include "core/gcode/modal_state.hpp"
 
@@ -12,7 +13,8 @@ namespace lockstep {
 
 class GcodeStream {
 public:
-    explicit GcodeStream(const GcodeSetup& setup);
+    /// `text`: the whole text, if it is known. A subroutine may then be behind its call. It must outlive the stream.
+    explicit GcodeStream(const GcodeSetup& setup, std::string_view text = {});
     ~GcodeStream();
     GcodeStream(GcodeStream&&) noexcept;
     GcodeStream& operator=(GcodeStream&&) noexcept;
@@ -36,6 +38,8 @@ public:
     std::vector<Block> take_blocks();
     /// Moves them to `blocks`, whose memory is used for the next ones.
     void take_blocks(std::vector<Block>& blocks);
+    /// From now on `take` gets the blocks of a line whenever many wait, before the line is done.
+    void pass_on(TakeBlocks take);
     /// Skipped words, and messages, since the last call.
     std::vector<GcodeNote> take_notes();
     /// The values and modes after the lines taken so far.

@@ -57,11 +57,12 @@ std::string axis_letters(const GcodeSetup& setup) {
     return letters;
 }
 
-Setup interpreter_setup(const GcodeSetup& setup) {
+Setup interpreter_setup(const GcodeSetup& setup, std::string_view text) {
     return {.axes = axis_letters(setup),
             .skip_deletable = setup.switches.skip_deletable,
             .awaits_touches = setup.awaits_touches,
             .limits = setup.limits,
+            .program = text,
             .find_subroutine = setup.find_subroutine};
 }
 
@@ -272,10 +273,7 @@ void ProgramBuilder::append(decltype(lockstep::Block::action) action) {
         fail("the program has more than " + std::to_string(kMaxEventsTogether) +
              " words that move no axis, without a move between them; remove some");
     }
-    if (program_.blocks.size() < kMaxProgramBlocks) {
-        program_.blocks.push_back({.line = line_, .action = std::move(action)});
-        return;
-    }
+    if (blocks_.add({.line = line_, .action = std::move(action)})) { return; }
     is_full_ = true;
     errors_.push_back({line_, 1,
                        "the program has more than " + std::to_string(kMaxProgramBlocks) + " blocks; split it in two",

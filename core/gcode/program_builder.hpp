@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/gcode/built_blocks.hpp"
 #include "core/gcode/gcode.hpp"
 #include "core/gcode/interpreter.hpp"
 #include "core/gcode/modal_state.hpp"
@@ -18,7 +19,8 @@ namespace lockstep::gcode {
 /// The letters of the setup's axes. Axes with longer names have none.
 std::string axis_letters(const GcodeSetup& setup);
 /// The interpreter's setup and the state that a program of this machine begins with.
-Setup interpreter_setup(const GcodeSetup& setup);
+/// `text`: see Setup::program.
+Setup interpreter_setup(const GcodeSetup& setup, std::string_view text = {});
 State start_state(const GcodeSetup& setup);
 /// The park position, in the order of kAxisLetters.
 Point park_place(const GcodeSetup& setup);
@@ -54,13 +56,8 @@ public:
     bool is_full() const { return is_full_; }
 
     ProgramHead head() const { return program_.head(); }
-    /// The blocks and notes since the last call.
-    std::vector<lockstep::Block> take_blocks() { return std::exchange(program_.blocks, {}); }
-    /// Moves them to `blocks`, whose memory is used for the next ones.
-    void take_blocks(std::vector<lockstep::Block>& blocks) {
-        blocks.clear();
-        blocks.swap(program_.blocks);
-    }
+    BuiltBlocks& blocks() { return blocks_; }
+    /// The notes since the last call.
     std::vector<GcodeNote> take_notes() { return std::exchange(notes_, {}); }
 
     /// The last message since the last pause.
@@ -68,7 +65,10 @@ public:
     /// The spindle was switched on or got another speed, and no move with a feed has come since.
     bool awaits_speed() const { return awaits_speed_; }
 
-    GcodeReading reading() && { return {std::move(program_), std::move(notes_), {}}; }
+    GcodeReading reading() && {
+        program_.blocks = blocks_.take();
+        return {std::move(program_), std::move(notes_), {}};
+    }
 
 private:
     void move(const Point& target, double feed, bool rapid);
@@ -103,7 +103,8 @@ private:
 
     const GcodeSetup& setup_;
     std::vector<std::optional<std::size_t>> places_;
-    Program program_;
+    Program program_;  // without its blocks
+    BuiltBlocks blocks_;
     std::vector<GcodeNote> notes_;
     std::set<std::string> noted_;
     std::vector<double> position_;

@@ -73,33 +73,36 @@ private:
     int shown_ = 0;
 };
 
+/// Reads in a thread of its own. Returns when that has ended.
+std::expected<ProgramPlan, PlanError> plan_as_read(const MachineConfig& machine,
+                                                   const std::shared_ptr<ProgramText>& text, const std::string& file,
+                                                   Output& output, const OnSetup& on_setup) {
+    const ProgramHead head = text->head();
+    const auto blocks = std::make_shared<ReadAhead>(text);
+    Progress progress(file, *blocks, machine.ticks_per_second(), output);
+    auto plan = plan_blocks(machine, head, blocks,
+                            {.start = start_counts(machine, head),
+                             .overrides = {},
+                             .each_frame = on_setup ? on_setup(machine) : OnPlannedFrame{},
+                             .progress = [&](Ticks motion) { progress.show(motion); }});
+    blocks->stop();
+    return plan;
+}
+
 /// The text has an error before the one of the plan. It was read some thousand lines farther than it was planned.
 bool has_error_before(ProgramText& text, const PlanError& error) {
     return !text.errors().empty() && (!error.line || text.errors().front().line <= *error.line);
 }
 
-std::expected<PlannedFile, Failure> plan_long_file(const ProgramOptions& options, Output& output,
-                                                   const OnSetup& on_setup) {
-    auto setup = reading_setup(options);
-    if (!setup) { return std::unexpected(setup.error()); }
-    auto lines = LineReader::open(options.file);
-    if (!lines) { return std::unexpected(bad_file(options.file, {{.message = lines.error()}})); }
-    GcodeSetup reading = program_setup(options.file, setup->machine, setup->start_mm, options.switches, setup->values);
-    const auto text = std::make_shared<ProgramText>(*std::move(lines), reading);
-    const ProgramHead head = text->head();
-    const auto blocks = std::make_shared<ReadAhead>(text);
-    Progress progress(options.file, *blocks, setup->machine.ticks_per_second(), output);
-    auto plan = plan_blocks(setup->machine, head, blocks,
-                            {.start = start_counts(setup->machine, head),
-                             .overrides = {},
-                             .each_frame = on_setup ? on_setup(setup->machine) : OnPlannedFrame{},
-                             .progress = [&](Ticks motion) { progress.show(motion); }});
-    blocks->stop();
-    if (!plan && !has_error_before(*text, plan.error())) {
-        return std::unexpected(not_planned(options.file, plan.error()));
-    }
-    if (!text->errors().empty()) { return std::unexpected(bad_file(options.file, text->errors())); }
-    return PlannedFile{std::move(setup->machine), *std::move(plan), text->lines(), text->notes(), std::move(reading)};
+int lines_in(std::string_view text) {
+    const bool ends_open = !text.empty() && text.back() != '\n';
+    return static_cast<int>(std::ranges::count(text, '\n')) + (ends_open ? 1 : 0);
+}
+
+/// The whole text of a file that is not long: its subroutines may be behind their calls, and all its errors are
+/// reported before one of the plan. Empty for a long file.
+std::expected<std::string, Diagnostic> text_if_short(const std::string& file) {
+    return is_long_program(file) ? std::string() : read_text_file(file);
 }
 
 }  // namespace
@@ -129,19 +132,33 @@ std::expected<ProgramInput, Failure> read_program(const ProgramOptions& options,
     auto plan =
         plan_program(setup->machine, read->reading.program, on_setup ? on_setup(setup->machine) : OnPlannedFrame{});
     if (!plan) { return std::unexpected(not_planned(file, plan.error())); }
-    const bool ends_open = !read->text.empty() && read->text.back() != '\n';
-    const auto lines = std::ranges::count(read->text, '\n') + (ends_open ? 1 : 0);
-    return ProgramInput{{std::move(setup->machine), *std::move(plan), static_cast<int>(lines),
-                         std::move(read->reading.notes), std::move(read->setup)},
-                        std::move(read->reading.program),
-                        std::move(read->text)};
+    const int lines = lines_in(read->text);
+    return ProgramInput{
+        {std::move(setup->machine), *std::move(plan), lines, std::move(read->reading.notes), std::move(read->setup)},
+        std::move(read->reading.program),
+        std::move(read->text)};
 }
 
 std::expected<PlannedFile, Failure> plan_file(const ProgramOptions& options, Output& output, const OnSetup& on_setup) {
-    if (is_long_program(options.file)) { return plan_long_file(options, output, on_setup); }
-    auto input = read_program(options, on_setup);
-    if (!input) { return std::unexpected(input.error()); }
-    return static_cast<PlannedFile&&>(*std::move(input));
+    const auto whole = text_if_short(options.file);
+    if (!whole) { return std::unexpected(bad_file(options.file, {whole.error()})); }
+    auto setup = reading_setup(options);
+    if (!setup) { return std::unexpected(setup.error()); }
+    auto lines = LineReader::open(options.file);
+    if (!lines) { return std::unexpected(bad_file(options.file, {{.message = lines.error()}})); }
+    GcodeSetup reading = program_setup(options.file, setup->machine, setup->start_mm, options.switches, setup->values);
+    const auto text = std::make_shared<ProgramText>(*std::move(lines), reading, *whole);
+    auto plan = plan_as_read(setup->machine, text, options.file, output, on_setup);
+    if (!whole->empty() && (!plan || !text->errors().empty() || text->passed() > kMaxProgramBlocks)) {
+        const std::vector<GcodeError> errors = check_gcode(*whole, reading);
+        if (!errors.empty()) { return std::unexpected(bad_file(options.file, to_diagnostics(errors))); }
+    }
+    if (!plan && !has_error_before(*text, plan.error())) {
+        return std::unexpected(not_planned(options.file, plan.error()));
+    }
+    if (!text->errors().empty()) { return std::unexpected(bad_file(options.file, text->errors())); }
+    const int line_count = whole->empty() ? text->lines() : lines_in(*whole);
+    return PlannedFile{std::move(setup->machine), *std::move(plan), line_count, text->notes(), std::move(reading)};
 }
 
 }  // namespace lockstep

@@ -46,7 +46,7 @@ public:
                 GcodeError{1, 1, "a subroutine that probes runs from a file only; write it into a file"});
         }
         return SessionLine{.head = builder_.head(),
-                           .blocks = builder_.take_blocks(),
+                           .blocks = builder_.blocks().take(),
                            .notes = builder_.take_notes(),
                            .place_mm = {},
                            .values = {},

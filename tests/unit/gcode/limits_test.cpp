@@ -113,6 +113,21 @@ TEST(GcodeLimits, ProgramThatIsTooLongIsReadNoFurther) {
     EXPECT_THAT(found[0].message, HasSubstr("more than 1000000 blocks; split it in two"));
 }
 
+/// The blocks of a program that is only checked are dropped, but they count.
+TEST(GcodeLimits, ACheckHasTheErrorsOfAReading) {
+    for (const char* text : {"o1 while [1]\nG0 X[1-#5420]\no1 endwhile\nG0 X9999\n", "G0 X9999\nG1 Y1\nG0 Y-7\n",
+                             "o1 repeat [3000]\nG0 X1\nX2\no1 endrepeat\nG0 X9999\n", "G0 X1\n"}) {
+        const auto read = errors(text);
+        const auto found = check_gcode(text, three_axes());
+        ASSERT_EQ(found.size(), read.size()) << text;
+        for (std::size_t k = 0; k < read.size(); ++k) {
+            EXPECT_EQ(found[k].line, read[k].line);
+            EXPECT_EQ(found[k].column, read[k].column);
+            EXPECT_EQ(found[k].message, read[k].message);
+        }
+    }
+}
+
 TEST(GcodeLimits, MessagesAreListedUpToALimit) {
     const auto reading = read_gcode("o1 repeat [20000]\n(msg,a)\no1 endrepeat\n", three_axes());
     ASSERT_TRUE(reading);

@@ -17,10 +17,10 @@ using test::example;
 
 class PlannedAsItIsRead : public testing::Test {
 protected:
-    std::shared_ptr<ProgramText> read(const std::string& text) {
+    std::shared_ptr<ProgramText> read(const std::string& text, std::string_view whole = {}) {
         EXPECT_TRUE(write_text_file(file_, text));
         return std::make_shared<ProgramText>(LineReader::open(file_.string()).value(),
-                                             program_setup(file_, machine_, parked_mm(machine_)));
+                                             program_setup(file_, machine_, parked_mm(machine_)), whole);
     }
     std::expected<ProgramPlan, PlanError> plan(const std::shared_ptr<ProgramText>& text) const {
         return plan_blocks(machine_, text->head(), text, {.start = start_counts(machine_, text->head())});
@@ -126,6 +126,40 @@ TEST_F(PlannedAsItIsRead, RefusesASubroutineBehindItsCall) {
     (void)plan(program);
     ASSERT_FALSE(program->errors().empty());
     EXPECT_EQ(program->errors()[0].line, 1);
+}
+
+TEST_F(PlannedAsItIsRead, KnowsASubroutineBehindItsCallIfTheTextIsKnown) {
+    const std::string text = "o1 call\nM2\no1 sub\nG0 X20\no1 endsub\n";
+    const auto program = read(text, text);
+    const auto planned = plan(program);
+    ASSERT_TRUE(planned);
+    EXPECT_EQ(planned->moves, 1);
+    EXPECT_TRUE(program->errors().empty());
+}
+
+/// Otherwise a loop would need memory for all of its blocks.
+TEST_F(PlannedAsItIsRead, PassesALoopInParts) {
+    const auto program = read("G0 X20\no1 repeat [20000]\nG1 X21 F3000\nX20\no1 endrepeat\nG0 X22\n");
+    std::size_t most = 0;
+    std::vector<std::int32_t> lines;
+    program->pass_blocks([&](std::vector<Block>& blocks) {
+        most = std::max(most, blocks.size());
+        for (const Block& block : blocks) { lines.push_back(block.line.value()); }
+        return true;
+    });
+    EXPECT_LE(most, 2000U);
+    ASSERT_EQ(lines.size(), 40'002U);
+    EXPECT_EQ(program->passed(), 40'002U);
+    EXPECT_THAT(std::vector(lines.begin(), lines.begin() + 4), testing::ElementsAre(1, 3, 4, 3));
+    EXPECT_EQ(lines.back(), 6);
+}
+
+TEST_F(PlannedAsItIsRead, EndsALoopThatIsNoLongerRead) {
+    const auto program = read("o1 repeat [20000]\nG1 X21 F3000\nX20\no1 endrepeat\nG0 X22\n");
+    int calls = 0;
+    program->pass_blocks([&](std::vector<Block>& blocks) { return blocks.empty() || ++calls < 2; });
+    EXPECT_EQ(calls, 2);
+    EXPECT_EQ(program->lines(), 4);
 }
 
 TEST_F(PlannedAsItIsRead, CountsLinesAndKeepsNotes) {
