@@ -34,7 +34,7 @@ AxisCounts plays_in(const RecordedJob& begun, const MachineConfig& machine) {
 std::optional<Event> touch_of(const RecordedJob& message, const Analysis& analysis) {
     const bool is_touched = message.outcome == "touched";
     if (!is_touched || !analysis.config || !is_countable(message.start_tick)) { return std::nullopt; }
-    std::string what = "the probe touched at";
+    std::string what = message.input().empty() ? "the probe touched at" : "input " + message.input() + " touched at";
     const std::vector<AxisConfig>& axes = analysis.config->axes;
     for (std::size_t i = 0; i < axes.size() && i < message.start_count.size(); ++i) {
         what += fmt::format(" {} {:.4f}", axes[i].name, static_cast<double>(message.start_count[i]) / kNmInMm);

@@ -36,7 +36,8 @@ LogCheck::Axis::Axis(const std::string& name, Findings& findings, JobCheck* jobs
           [this](const Run& other) { check.runs_contradict(other); }) {}
 
 LogCheck::Machine::Machine(Findings& findings)
-    : jobs(findings,
+    : touches(findings),
+      jobs(findings, touches,
            [this](const std::string& axis, OutputCheck::Planned planned) {
                const auto found = axes.find(axis);
                if (found != axes.end()) { found->second->outputs.take(std::move(planned)); }
@@ -85,6 +86,14 @@ void LogCheck::on_channel(const channel_event_t& message, analysis::LogPlace pla
     if (!is_possible) { return on_damage(place, "a change of an input or output with impossible numbers"); }
     end_.saw(RecordKind::Channels, message.machine, message.axis, message.incarnation, message.sequence);
     of->outputs.take({message.incarnation, message.sequence, message.lost, *event});
+    if (event->kind != ChannelEvent::Kind::Input || message.clock_error < 0) { return; }
+    machines_.find(message.machine)
+        ->second.touches.take({.utime = message.utime,
+                               .motor = message.axis,
+                               .channel = event->channel,
+                               .closed = event->closed,
+                               .tick = event->tick + Ticks{message.ahead},
+                               .clock_error = {message.clock_error}});
 }
 
 void LogCheck::on_program_part(const program_part_t& message, analysis::LogPlace /*place*/) {
@@ -318,6 +327,11 @@ void LogCheck::Machine::finish(const std::string& name, const analysis::RecordEn
                           .lacks_runs = is_damaged || end.lacks(RecordKind::Run, name, axis)});
         of->outputs.finish(!is_damaged && !of->is_late && !of->last.is_cut() && !end.may_lack_changes(name, axis));
     }
+    touches.finish([&](const std::string& motor) {
+        const auto of = axes.find(motor);
+        return is_damaged || of == axes.end() || of->second->outputs.lacks_changes() ||
+               end.may_lack_changes(name, motor);
+    });
 }
 
 Findings LogCheck::finish() {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "clients/verification/activity.hpp"
+#include "clients/verification/events/touch_check.hpp"
 #include "clients/verification/jobs/job_check.hpp"
 #include "clients/verification/steps/axis_check.hpp"
 #include "clients/verification/steps/output_check.hpp"
@@ -83,6 +84,7 @@ private:
         void finish(const std::string& name, const analysis::RecordEnd& end, bool is_damaged);
         void set_config(const std::string& text, Findings& findings);
         void check_axes(Findings& findings) const;
+        TouchCheck touches;
         JobCheck jobs;
         JobStream records;
         std::optional<MachineConfig> config;  // of its first job in the log

@@ -13,7 +13,9 @@
 // - Words for devices that the machine does not have are refused, or become events on the path, as `unassigned` says.
 #pragma once
 
+#include <cstdint>
 #include <expected>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -85,8 +87,9 @@ struct GcodeSetup {
 /// How a probing move ended. One place for each axis of the setup, in machine coordinates.
 struct ProbeTouch {
     bool touched = false;
-    std::vector<double> places_mm;  // at the touch; without one, at the end of the move
-    std::vector<double> rest_mm;    // where the axes came to rest: the program continues from there
+    std::vector<double> places_mm;            // at the touch; without one, at the end of the move
+    std::vector<double> rest_mm;              // where the axes came to rest: the program continues from there
+    std::optional<std::uint32_t> input = {};  // of the machine's file, that touched first
 };
 
 /// A word that was skipped, or a message of the program.

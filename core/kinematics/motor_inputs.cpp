@@ -17,6 +17,13 @@ std::uint32_t inputs_with(const MachineConfig& machine, std::string_view motor, 
     return inputs;
 }
 
+std::optional<std::uint32_t> input_at(const MachineConfig& machine, std::string_view motor, int channel) {
+    for (std::uint32_t i = 0; i < machine.inputs.size(); ++i) {
+        if (machine.inputs[i].motor == motor && machine.inputs[i].channel == channel) { return i; }
+    }
+    return std::nullopt;
+}
+
 std::string label_of(const InputConfig& input) {
     return "input " + input.name + (input.at_board ? " of board " : " of motor ") + input.motor;
 }

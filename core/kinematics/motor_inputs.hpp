@@ -15,6 +15,9 @@ namespace lockstep {
 /// The inputs of the motor's device that have this use; input n is bit n.
 std::uint32_t inputs_with(const MachineConfig& machine, std::string_view motor, InputUse use);
 
+/// The place in the machine's file of the input at this channel of the motor's device; nullopt if there is none.
+std::optional<std::uint32_t> input_at(const MachineConfig& machine, std::string_view motor, int channel);
+
 /// For texts: "input stop of motor X", or "input door of board IO".
 std::string label_of(const InputConfig& input);
 

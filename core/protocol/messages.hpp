@@ -94,7 +94,8 @@ struct TouchInputs {
 /// The touch that ended an epoch.
 struct EpochTouch {
     Epoch epoch = 0;
-    Tick tick;  // machine time
+    Tick tick;                 // machine time
+    std::uint8_t channel = 0;  // the input of the device that touched
     bool operator==(const EpochTouch&) const = default;
 };
 
@@ -258,10 +259,12 @@ struct MachinePause {
 /// How the newest probing move ended.
 struct ProbeResult {
     std::uint64_t job = 0;
-    bool touched = false;
+    std::optional<std::uint32_t> input;        // of the machine, that touched first; empty: none touched
     Tick tick;                                 // of the touch
     StaticVector<double, kMaxAxes> places_mm;  // of each axis of the machine at the touch; without one, at rest
     bool operator==(const ProbeResult&) const = default;
+
+    bool touched() const { return input.has_value(); }
 };
 
 /// The axis that moves of all axes home, and how far.

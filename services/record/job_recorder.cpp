@@ -53,8 +53,9 @@ void JobRecorder::record(Tick now, const JobEvent& event) {
     sink_.publish(channel_, to_lcm(record, now, machine_.tick_ns));
 }
 
-void JobRecorder::add(const ProbeResult& probe, JobRecord& record) {
-    record.outcome = probe.touched ? "touched" : "missed";
+void JobRecorder::add(const ProbeResult& probe, JobRecord& record) const {
+    record.outcome = probe.touched() ? "touched" : "missed";
+    if (probe.input) { record.program = machine_.inputs[*probe.input].name; }
     record.start = probe.tick;
     for (const double mm : probe.places_mm) { record.start_count.push_back(std::llround(mm * kNmInMm)); }
 }

@@ -35,7 +35,7 @@ private:
     static constexpr std::size_t kBlocksInJob = 2000;  // most blocks in a job's own message
     static constexpr std::size_t kProgramsKept = 16;   // more than the coordinator keeps
 
-    static void add(const ProbeResult& probe, JobRecord& record);
+    void add(const ProbeResult& probe, JobRecord& record) const;
     void record_program(Tick now, const JobEvent& event, JobRecord& record);
     void record_parts(Tick now, std::uint64_t id, const Program& program);
     void publish(Tick now, program_part_t&& part);

@@ -125,7 +125,7 @@ std::string StatusReport::text(const MachineView& view, State state, const std::
 
 std::string probe_text(const ProbeResult& probe, bool inches) {
     const std::vector<double> places(probe.places_mm.begin(), probe.places_mm.end());
-    return places_text(places, inches) + (probe.touched ? ":1" : ":0");
+    return places_text(places, inches) + (probe.touched() ? ":1" : ":0");
 }
 
 }  // namespace lockstep::grbl

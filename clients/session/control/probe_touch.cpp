@@ -47,6 +47,7 @@ std::expected<ProbeTouch, Failure> touch_of(Session& session, std::uint64_t job)
 proto::ProbeReport probe_report(const MachineConfig& machine, const ProbeTouch& touch) {
     proto::ProbeReport report;
     report.set_touched(touch.touched);
+    if (touch.input && *touch.input < machine.inputs.size()) { report.set_input(machine.inputs[*touch.input].name); }
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         proto::ProbePlace& place = *report.add_places();
         place.set_name(machine.axes[i].name);
@@ -64,7 +65,7 @@ std::string text_of(const proto::ProbeReport& probe) {
         behind = std::hypot(behind, place.behind_mm());
     }
     if (!probe.touched()) { return "did not touch; the move ended at " + places; }
-    return "touched at " + places + "; the axes rest " + fixed(behind, 4) + " mm behind it";
+    return "input " + probe.input() + " touched at " + places + "; the axes rest " + fixed(behind, 4) + " mm behind it";
 }
 
 }  // namespace lockstep

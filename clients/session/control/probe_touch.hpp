@@ -24,7 +24,8 @@ std::optional<TouchOrError> received_touch(const Session& session, std::uint64_t
 std::expected<ProbeTouch, Failure> touch_of(Session& session, std::uint64_t job);
 
 proto::ProbeReport probe_report(const MachineConfig& machine, const ProbeTouch& touch);
-/// "touched at X 10.0000  Z -3.2150; the axes rest 0.0210 mm behind it", or where the move ended without a touch.
+/// "input probe touched at X 10.0000  Z -3.2150; the axes rest 0.0210 mm behind it", or where the move ended without a
+/// touch.
 std::string text_of(const proto::ProbeReport& probe);
 
 }  // namespace lockstep

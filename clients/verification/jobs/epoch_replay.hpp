@@ -48,6 +48,12 @@ public:
     /// Where the motors were at a tick, in an epoch with a touch of which frame `ran` was the last one run.
     MotorPositions positions_at(Tick tick, FrameNumber ran) const { return runner_.positions_at(tick - shift_, ran); }
 
+    /// The inputs at whose touch the epoch ends.
+    const TouchInputs& touch() const { return runner_.touch(); }
+    Tick begin() const { return *runner_.made().start() + shift_; }
+    /// The end of this frame.
+    Tick end_of(FrameNumber frame) const { return begin() + runner_.made().ticks_of(frame); }
+
     EpochEnd evaluate(std::span<const AxisEnd> axes) const;
 
     /// The block of the program in motion at a tick.

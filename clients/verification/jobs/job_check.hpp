@@ -34,10 +34,10 @@ public:
     /// The maximum number of runs that wait for the record of their epoch, which is written before they begin.
     static constexpr std::size_t kMaxWaiting = 4096;
 
-    explicit JobCheck(Findings& findings, PlannedOutputs::OnOutputs on_outputs = {})
+    explicit JobCheck(Findings& findings, TouchCheck& touches, PlannedOutputs::OnOutputs on_outputs)
         : findings_(findings),
           events_(findings),
-          progress_(findings, events_, questions_, epochs_, std::move(on_outputs)) {}
+          progress_(findings, events_, touches, questions_, epochs_, std::move(on_outputs)) {}
 
     /// Records come in the order of their numbers. `is_behind_gap`: records of the coordinator before it are missing.
     void take(const RecordedJob& record, bool is_behind_gap);

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "clients/verification/jobs/record_text.hpp"
+#include "core/hardware/device_abilities.hpp"
+#include "core/kinematics/motor_inputs.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/number_text.hpp"
 #include "core/outputs/output_levels.hpp"
@@ -20,6 +22,9 @@ namespace {
 std::size_t index_of(const MachineConfig& machine, const std::string& axis) {
     return motor_named(machine, axis).value_or(motor_count(machine));
 }
+
+/// An epoch begins at most so long after the coordinator has looked at the inputs of its probe.
+constexpr double kLook_s = 2;
 
 JobOutcome outcome_of(const RecordedJob& record) {
     if (record.outcome == "done") { return JobOutcome::Done; }
@@ -149,10 +154,38 @@ void JobProgress::take_overrides(const RecordedJob& record) {
     }
 }
 
+/// In the epoch in progress.
+RecordedTouch JobProgress::touch_of(const RecordedJob& record) const {
+    const EpochReplay& replay = epoch_->replay();
+    const MachineConfig& machine = job_->replay->machine();
+    const bool touched = record.outcome == "touched";
+    const Ticks shortly{static_cast<std::int64_t>(kLook_s * machine.ticks_per_second())};
+    RecordedTouch touch{.inputs = {},
+                        .opens = replay.touch().opens,
+                        .looked = replay.begin() - shortly,
+                        .begin = replay.begin(),
+                        .end = touched ? Tick{record.start_tick} : replay.end_of(epoch_->ran()),
+                        .touched = touched,
+                        .input = record.input(),
+                        .utime = record.utime,
+                        .job = job_->label};
+    for (const TouchInput& input : replay.touch().any_of) {
+        const MotorConfig& motor = job_->replay->kinematics().motors()[input.motor];
+        const auto number = input_at(machine, motor.name, input.channel);
+        if (!number) { continue; }
+        touch.inputs.push_back({.name = machine.inputs[*number].name,
+                                .motor = motor.name,
+                                .channel = input.channel,
+                                .debounce = setup_of(machine, motor).debounce[input.channel]});
+    }
+    return touch;
+}
+
 /// Compares the recorded places of a touch with those of the frames that were run.
 void JobProgress::take_probe(const RecordedJob& record) {
     if (!is_of_job(record) || job_->is_lost || !job_->replay) { return; }
     job_->is_probed = true;
+    if (epoch_.is(static_cast<Epoch>(record.epoch))) { touches_.take(touch_of(record)); }
     if (!epoch_ || record.outcome != "touched") { return; }
     const JobReplay& replay = *job_->replay;
     const MotorPositions motors = job_->slides_of(epoch_->replay().positions_at({record.start_tick}, epoch_->ran()));

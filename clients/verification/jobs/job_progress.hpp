@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "clients/verification/events/event_check.hpp"
+#include "clients/verification/events/touch_check.hpp"
 #include "clients/verification/findings.hpp"
 #include "clients/verification/jobs/checked_job.hpp"
 #include "clients/verification/jobs/epoch_progress.hpp"
@@ -22,10 +23,11 @@ namespace lockstep::verification {
 
 class JobProgress {
 public:
-    JobProgress(Findings& findings, EventCheck& events, OpenQuestions& questions, NewestEpochs& epochs,
-                PlannedOutputs::OnOutputs on_outputs)
+    JobProgress(Findings& findings, EventCheck& events, TouchCheck& touches, OpenQuestions& questions,
+                NewestEpochs& epochs, PlannedOutputs::OnOutputs on_outputs)
         : findings_(findings),
           events_(events),
+          touches_(touches),
           questions_(questions),
           epochs_(epochs),
           epoch_(findings, events, questions, epochs, std::move(on_outputs)) {}
@@ -59,12 +61,14 @@ private:
     void begin_epoch(const RecordedJob& record);
     void take_overrides(const RecordedJob& record);
     void take_probe(const RecordedJob& record);
+    RecordedTouch touch_of(const RecordedJob& record) const;
     void end(const RecordedJob& record);
     void leave_job_plan(Epoch epoch);
     bool is_of_job(const RecordedJob& record) const { return job_ && job_->is_of(record); }
 
     Findings& findings_;
     EventCheck& events_;
+    TouchCheck& touches_;
     OpenQuestions& questions_;
     NewestEpochs& epochs_;
     std::optional<CheckedJob> job_;

@@ -48,6 +48,7 @@ void OutputCheck::follow(const Seen& seen, Before before) {
     if (is_another) { compare_passed(); }
     if (is_gap || is_another || begins_late) { lose(); }
     if (is_gap || begins_late) { unknown_until_ = seen.event.tick; }
+    lacks_changes_ = lacks_changes_ || is_gap || begins_late;
     last_ = seen;
     if (!is_of_output(seen.event)) { return; }
     seen_.push_back(seen);

@@ -48,6 +48,8 @@ public:
 
     /// Requires all changes of that process from this number on to be in the log.
     void expect_from(std::int64_t incarnation, std::int64_t number) { expected_.try_emplace(incarnation, number); }
+    /// Whether changes of inputs or outputs between those of the log are known to be missing.
+    bool lacks_changes() const { return lacks_changes_; }
     /// Call once, at the end of the log. `is_whole`: the log lacks no messages.
     void finish(bool is_whole);
 
@@ -81,8 +83,9 @@ private:
     std::optional<Seen> last_;
     std::map<std::int64_t, std::int64_t> expected_;  // by process: the first number that must be in the log
     std::map<std::int64_t, Seen> first_;             // of each process, if it is not its number 0
-    std::optional<Tick> unknown_until_;              // changes before it are missing
-    std::optional<std::uint16_t> levels_;            // after the events compared; nullopt: not known
+    bool lacks_changes_ = false;
+    std::optional<Tick> unknown_until_;    // changes before it are missing
+    std::optional<std::uint16_t> levels_;  // after the events compared; nullopt: not known
 };
 
 }  // namespace lockstep::verification

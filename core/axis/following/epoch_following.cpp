@@ -12,10 +12,12 @@ namespace {
 /// With room for the pieces that fitting it to the device's clock adds.
 std::size_t room_for(const AxisTrack& track) { return ring_entries(track) + kDevicePieces; }
 
-/// Whether one of these inputs touches that the axis's device has. `closed`: its closed inputs.
-bool touches(const TouchInputs& touch, std::size_t axis, std::uint32_t closed) {
-    return std::ranges::any_of(
-        touch.any_of, [&](const TouchInput& input) { return input.motor == axis && touch.is_touched(input, closed); });
+/// The first of these inputs that the axis's device has and that touches. `closed`: the device's closed inputs.
+std::optional<std::uint8_t> touching(const TouchInputs& touch, std::size_t axis, std::uint32_t closed) {
+    for (const TouchInput& input : touch.any_of) {
+        if (input.motor == axis && touch.is_touched(input, closed)) { return input.channel; }
+    }
+    return std::nullopt;
 }
 
 /// Whether the change of an input of the axis's device is a touch of one of these.
@@ -59,21 +61,22 @@ void EpochFollowing::begin(Epoch epoch, AxisLoop& loop) {
     ran_ = 0;
     touch_.reset();
     loop.notice({AxisNotice::Kind::EpochBegun, FaultCode::None, epoch});
-    if (touches(follower_.touch(), axis_, loop.device.status().inputs)) { end_at(loop.device.status().now, loop); }
+    const DeviceStatus& device = loop.device.status();
+    if (const auto channel = touching(follower_.touch(), axis_, device.inputs)) { end_at(device.now, *channel, loop); }
 }
 
 /// An input follows its pin with a delay, so a touch may become known when the axis rests already.
 void EpochFollowing::take(std::span<const InputEdge> edges, AxisLoop& loop) {
     for (const InputEdge& edge : edges) {
         if (!is_open() && edge.tick > rested_) { return; }
-        if (is_touch(follower_.touch(), axis_, edge)) { end_at(edge.tick, loop); }
+        if (is_touch(follower_.touch(), axis_, edge)) { end_at(edge.tick, edge.channel, loop); }
     }
 }
 
 /// Later touches are part of the first one.
-void EpochFollowing::end_at(Tick touch, AxisLoop& loop) {
+void EpochFollowing::end_at(Tick touch, std::uint8_t channel, AxisLoop& loop) {
     if (touch_ && touch_->tick <= touch) { return; }
-    touch_ = EpochTouch{follower_.epoch(), touch};
+    touch_ = EpochTouch{follower_.epoch(), touch, channel};
     loop.notice({AxisNotice::Kind::Touched, FaultCode::None, static_cast<std::uint64_t>(touch.value)});
     follower_.veto_for_touch(loop.next_state);
 }

@@ -52,7 +52,7 @@ private:
     bool is_left_behind(const DeviceStatus& device) const;
     void begin(Epoch epoch, AxisLoop& loop);
     void refuse(const Frame& frame, FaultCode why, AxisLoop& loop);
-    void end_at(Tick touch, AxisLoop& loop);
+    void end_at(Tick touch, std::uint8_t channel, AxisLoop& loop);
 
     std::size_t axis_;
     SetpointFollower follower_;

@@ -112,12 +112,13 @@ void EpochRunner::stop(Slot next) {
     in_flight_.stop(next, made_.newest());
 }
 
-std::optional<Tick> EpochRunner::touched(std::span<const AxisView> axes) const {
-    std::optional<Tick> first;
+std::optional<FirstTouch> EpochRunner::first_touch(std::span<const AxisView> axes) const {
+    std::optional<FirstTouch> first;
     for (const TouchInput& input : touch_.any_of) {
         const auto& state = axes[input.motor].state;
         if (!state || !state->touch || state->touch->epoch != epoch_) { continue; }
-        first = std::min(first.value_or(state->touch->tick), state->touch->tick);
+        if (state->touch->channel != input.channel || (first && first->tick <= state->touch->tick)) { continue; }
+        first = FirstTouch{state->touch->tick, input};
     }
     return first;
 }

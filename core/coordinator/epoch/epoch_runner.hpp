@@ -28,6 +28,12 @@ struct SwitchedBy {
     std::uint32_t block = 0;
 };
 
+/// The input of an epoch that touched first.
+struct FirstTouch {
+    Tick tick;
+    TouchInput input;
+};
+
 class EpochRunner {
 public:
     explicit EpochRunner(const MachineConfig& machine);
@@ -53,8 +59,8 @@ public:
     /// Returns nullopt while an axis may still move. Axes that are not present are left out.
     std::optional<EpochEnd> evaluate(Slot now, std::span<const AxisView> axes) const;
 
-    /// When an input of the epoch touched first, by what the axes report so far.
-    std::optional<Tick> touched(std::span<const AxisView> axes) const;
+    /// Which input of the epoch touched first, and when, by what the axes report so far.
+    std::optional<FirstTouch> first_touch(std::span<const AxisView> axes) const;
     const TouchInputs& touch() const { return touch_; }
     /// Where the motors were at this tick, in an epoch with a touch of which frame `ran` was the last one run.
     MotorPositions positions_at(Tick tick, FrameNumber ran) const { return history_.at(tick, ran); }

@@ -123,7 +123,7 @@ Program TouchHoming::program(const LoopView& loop) {
 
 void TouchHoming::moved(const std::optional<ProbeResult>& probe, const LoopView& loop) {
     const std::int64_t way = loop.counts()[axis_] - from_;
-    const bool is_touched = move_->trigger != Trigger::None && probe && probe->touched;
+    const bool is_touched = move_->trigger != Trigger::None && probe && probe->touched();
     end_ = {.by_trigger = is_touched, .count = at_ + way};
     if (is_touched) { end_.trigger_count = at_ + to_steps(config_, probe->places_mm[axis_]) - from_; }
     at_ += way;

@@ -4,6 +4,7 @@
 
 #include "core/check.hpp"
 #include "core/kinematics/axis_states.hpp"
+#include "core/kinematics/motor_inputs.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/protocol/rules.hpp"
 
@@ -33,6 +34,14 @@ TouchInputs untouched(const TouchInputs& inputs, const LoopView& loop) {
     return left;
 }
 
+/// The first input that touches; `untouched`: those that do not.
+std::optional<TouchInput> touching(const TouchInputs& inputs, const TouchInputs& untouched) {
+    for (const TouchInput& input : inputs.any_of) {
+        if (std::ranges::find(untouched.any_of, input) == untouched.any_of.end()) { return input; }
+    }
+    return std::nullopt;
+}
+
 /// Within so many slots every change of the probe's inputs is known.
 Slot slots_until_all_known(const Probe& probe, const MachineConfig& machine) {
     Slot slots = 0;
@@ -47,11 +56,13 @@ Slot slots_until_all_known(const Probe& probe, const MachineConfig& machine) {
 std::optional<Probed> Probing::end_at_begin(const PathTask& task, const TouchInputs& inputs, bool moves,
                                             const LoopView& loop) {
     awaited_ = untouched(inputs, loop);
+    std::optional<FirstTouch> touch;
     const bool touches = inputs.opens ? awaited_.empty() : awaited_ != inputs;
-    if (!touches && moves) { return std::nullopt; }
-    note(task, touches ? std::optional(loop.now) : std::nullopt, positions_of(loop), loop);
+    if (touches) { touch = {loop.now, *touching(inputs, awaited_)}; }
+    if (!touch && moves) { return std::nullopt; }
+    note(task, touch, positions_of(loop), loop);
     if (!task.probe->must_touch) { return Probed{}; }
-    return Probed{touches ? FaultCode::ProbeTouchedEarly : FaultCode::ProbeNotTouched};
+    return Probed{touch ? FaultCode::ProbeTouchedEarly : FaultCode::ProbeNotTouched};
 }
 
 bool Probing::may_touch_yet(const PathTask& task, const EpochEnd& end, const EpochRunner& runner,
@@ -66,9 +77,9 @@ bool Probing::may_touch_yet(const PathTask& task, const EpochEnd& end, const Epo
 /// A touch before the one that is known, or before the rest, may be of any input whose state is not known since then.
 bool Probing::lacks_states(const Probe& probe, const EpochRunner& runner, const LoopView& loop) const {
     const auto& inputs = runner.touch().any_of;
-    const auto touched = runner.touched(loop.axes.views());
-    if (touched && inputs.size() == 1) { return false; }
-    const Slot since = touched ? rules::slot_of(*touched, loop.machine.slot_ticks()) : *rested_;
+    const auto touch = runner.first_touch(loop.axes.views());
+    if (touch && inputs.size() == 1) { return false; }
+    const Slot since = touch ? rules::slot_of(touch->tick, loop.machine.slot_ticks()) : *rested_;
     const Slot known = since + slots_until_all_known(probe, loop.machine);
     return std::ranges::any_of(inputs, [&](const TouchInput& input) {
         return loop.axes.is_present(input.motor, loop.slot) && loop.axes.state(input.motor)->stamp < known;
@@ -77,17 +88,24 @@ bool Probing::lacks_states(const Probe& probe, const EpochRunner& runner, const 
 
 std::optional<Probed> Probing::end(const PathTask& task, const EpochEnd& end, const EpochRunner& runner,
                                    const LoopView& loop) {
-    const auto touched = runner.touched(loop.axes.views());
-    if (!touched && end.kind != EpochEnd::Kind::Complete) { return std::nullopt; }
-    note(task, touched, slides_at(touched ? runner.positions_at(*touched, end.ran) : end.positions, loop), loop);
+    const auto touch = runner.first_touch(loop.axes.views());
+    if (!touch && end.kind != EpochEnd::Kind::Complete) { return std::nullopt; }
+    note(task, touch, slides_at(touch ? runner.positions_at(touch->tick, end.ran) : end.positions, loop), loop);
     if (!task.probe->must_touch) { return Probed{}; }
-    if (!touched) { return Probed{FaultCode::ProbeNotTouched}; }
-    const bool is_early = !runner.made().start() || *touched <= *runner.made().start();
+    if (!touch) { return Probed{FaultCode::ProbeNotTouched}; }
+    const bool is_early = !runner.made().start() || touch->tick <= *runner.made().start();
     return Probed{is_early ? FaultCode::ProbeTouchedEarly : FaultCode::None};
 }
 
-void Probing::note(const PathTask& task, std::optional<Tick> touched, const MotorPositions& at, const LoopView& loop) {
-    result_ = ProbeResult{task.job.number, touched.has_value(), touched.value_or(Tick{}), {}};
+void Probing::note(const PathTask& task, const std::optional<FirstTouch>& touch, const MotorPositions& at,
+                   const LoopView& loop) {
+    result_ = ProbeResult{.job = task.job.number, .input = {}, .tick = {}, .places_mm = {}};
+    if (touch) {
+        const TouchInput& input = touch->input;
+        result_->input = input_at(loop.machine, motor_name(loop.machine, input.motor), input.channel);
+        check(result_->input.has_value(), "the inputs of an epoch are those of the machine");
+        result_->tick = touch->tick;
+    }
     for (std::size_t i = 0; i < loop.machine.axes.size(); ++i) {
         result_->places_mm.append(loop.kinematics.axis_steps(i, at) / loop.machine.axes[i].steps_per_mm);
     }

@@ -33,7 +33,8 @@ public:
 
 private:
     bool lacks_states(const Probe& probe, const EpochRunner& runner, const LoopView& loop) const;
-    void note(const PathTask& task, std::optional<Tick> touched, const MotorPositions& at, const LoopView& loop);
+    void note(const PathTask& task, const std::optional<FirstTouch>& touch, const MotorPositions& at,
+              const LoopView& loop);
 
     TouchInputs awaited_;
     std::optional<ProbeResult> result_;  // of the newest probing move

@@ -14,9 +14,10 @@ std::expected<ProbeTouch, ForeignProbeResult> touch_from(const ProbeResult& resu
     if (result.places_mm.size() != rest_mm.size()) {
         return std::unexpected(ForeignProbeResult{result.job, result.places_mm.size(), rest_mm.size()});
     }
-    return ProbeTouch{.touched = result.touched,
+    return ProbeTouch{.touched = result.touched(),
                       .places_mm = {result.places_mm.begin(), result.places_mm.end()},
-                      .rest_mm = std::move(rest_mm)};
+                      .rest_mm = std::move(rest_mm),
+                      .input = result.input};
 }
 
 }  // namespace lockstep

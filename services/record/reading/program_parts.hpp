@@ -31,6 +31,8 @@ struct RecordedJob : job_t {
     bool has_program() const { return parts || !lacks.empty() || !program.empty(); }
     /// Axes may be jogged in the pause of a job, and return in it. A homing by touch consists of moves with programs.
     bool may_be_in_pause() const { return kind == "jog" || kind == "return" || (kind == "home" && has_program()); }
+    /// Event probe: the name of the input that touched first; empty: none, or it is not on record.
+    const std::string& input() const { return program; }
     bool has_program_of(const RecordedJob& other) const { return program == other.program && parts == other.parts; }
     /// Fails if the program cannot be read or is incomplete.
     std::expected<std::shared_ptr<const RecordedProgram>, std::string> read_program() const;

@@ -108,7 +108,7 @@ struct JobRecord {
     FrameNumber behind_frame = 0;
     Overrides overrides;
     std::string config;
-    std::string program;
+    std::string program;                    // of a probe: the name of the input that touched first
     std::vector<std::int64_t> start_count;  // of a probe: nm, or millionths of a degree
 };
 inline constexpr double kNmInMm = 1e6;

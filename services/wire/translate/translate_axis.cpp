@@ -71,6 +71,7 @@ lockstep_wire_AxisState to_wire(const AxisState& state) {
                                     .pulses_left = state.pulses_left,
                                     .analog = {},
                                     .has_touch = state.touch.has_value(),
+                                    .touch_channel = state.touch.value_or(EpochTouch{}).channel,
                                     .touch_epoch = state.touch.value_or(EpochTouch{}).epoch,
                                     .touch_tick = state.touch.value_or(EpochTouch{}).tick.value};
     std::ranges::copy(state.analog, wire.analog);
@@ -87,45 +88,47 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
     check.far("following_error_steps", wire.following_error_steps);
     check.within<std::uint64_t>("command_done", wire.command_done, 0, kMostOrders);
     check.far("touch_tick", wire.touch_tick);
+    check.within<std::size_t>("touch_channel", wire.touch_channel, 0, kMostInputs - 1);
     check.within<std::int64_t>("clock_error_ticks", wire.clock_error_ticks, 0, kLongestClockError);
     const AxisPhase phase = check.choice("phase", wire.phase, AxisPhase::Fault);
     check.within("homing", wire.homing, std::uint16_t{0}, static_cast<std::uint16_t>(HomingStage::Release));
     const AnalogLevels analog = analog_of(wire, check);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
-    return AxisState{
-        .identity = wire.identity,
-        .axis = wire.axis,
-        .stamp = wire.stamp,
-        .epoch = wire.epoch,
-        .held = wire.held,
-        .veto = wire.has_veto ? std::optional(wire.veto) : std::nullopt,
-        .ran = wire.ran,
-        .at_rest = wire.at_rest,
-        .homed = wire.homed,
-        .phase = phase,
-        .fault = static_cast<FaultCode>(wire.fault),
-        .position = Position::from_count(wire.position_count, wire.position_phase),
-        .velocity = {wire.velocity},
-        .tick = {wire.tick},
-        .following_error_steps = wire.following_error_steps,
-        .play_steps = wire.play_steps,
-        .command_done = wire.command_done,
-        .command_fault = static_cast<FaultCode>(wire.command_fault),
-        .config_hash = wire.config_hash,
-        .refused_frames = wire.refused_frames,
-        .clock_error = {wire.clock_error_ticks},
-        .term = {wire.term, wire.coordinator},
-        .hears_owner = wire.hears_owner,
-        .unproved = static_cast<FaultCode>(wire.unproved),
-        .switches = {.limit_min = (wire.switches & kLimitMinBit) != 0,
-                     .limit_max = (wire.switches & kLimitMaxBit) != 0,
-                     .home = (wire.switches & kHomeBit) != 0},
-        .homing = static_cast<HomingStage>(wire.homing),
-        .inputs = wire.inputs,
-        .outputs = wire.outputs,
-        .pulses_left = wire.pulses_left,
-        .analog = analog,
-        .touch = wire.has_touch ? std::optional(EpochTouch{wire.touch_epoch, {wire.touch_tick}}) : std::nullopt};
+    return AxisState{.identity = wire.identity,
+                     .axis = wire.axis,
+                     .stamp = wire.stamp,
+                     .epoch = wire.epoch,
+                     .held = wire.held,
+                     .veto = wire.has_veto ? std::optional(wire.veto) : std::nullopt,
+                     .ran = wire.ran,
+                     .at_rest = wire.at_rest,
+                     .homed = wire.homed,
+                     .phase = phase,
+                     .fault = static_cast<FaultCode>(wire.fault),
+                     .position = Position::from_count(wire.position_count, wire.position_phase),
+                     .velocity = {wire.velocity},
+                     .tick = {wire.tick},
+                     .following_error_steps = wire.following_error_steps,
+                     .play_steps = wire.play_steps,
+                     .command_done = wire.command_done,
+                     .command_fault = static_cast<FaultCode>(wire.command_fault),
+                     .config_hash = wire.config_hash,
+                     .refused_frames = wire.refused_frames,
+                     .clock_error = {wire.clock_error_ticks},
+                     .term = {wire.term, wire.coordinator},
+                     .hears_owner = wire.hears_owner,
+                     .unproved = static_cast<FaultCode>(wire.unproved),
+                     .switches = {.limit_min = (wire.switches & kLimitMinBit) != 0,
+                                  .limit_max = (wire.switches & kLimitMaxBit) != 0,
+                                  .home = (wire.switches & kHomeBit) != 0},
+                     .homing = static_cast<HomingStage>(wire.homing),
+                     .inputs = wire.inputs,
+                     .outputs = wire.outputs,
+                     .pulses_left = wire.pulses_left,
+                     .analog = analog,
+                     .touch = wire.has_touch
+                                  ? std::optional(EpochTouch{wire.touch_epoch, {wire.touch_tick}, wire.touch_channel})
+                                  : std::nullopt};
 }
 
 lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {

@@ -81,7 +81,8 @@ void analog_to_wire(const ProgramDevices& devices, MachineStateMessage& message)
 
 void probe_to_wire(const ProbeResult& probe, MachineStateMessage& message) {
     message.probe_job = probe.job;
-    message.probe_touched = probe.touched;
+    message.probe_touched = probe.touched();
+    message.probe_input = probe.input.value_or(0);
     message.probe_tick = probe.tick.value;
     message.probe_storage.assign(probe.places_mm.begin(), probe.places_mm.end());
     const auto size = static_cast<std::uint32_t>(message.probe_storage.size());
@@ -93,7 +94,10 @@ std::optional<ProbeResult> probe_from_wire(const lockstep_wire_MachineState& wir
     check.within<std::size_t>("the number of probe_places_mm", wire.probe_places_mm._length, 0, kMaxAxes);
     check.far("probe_tick", wire.probe_tick);
     if (!wire.has_probe || !check.passed()) { return std::nullopt; }
-    ProbeResult probe{.job = wire.probe_job, .touched = wire.probe_touched, .tick = {wire.probe_tick}, .places_mm = {}};
+    ProbeResult probe{.job = wire.probe_job,
+                      .input = wire.probe_touched ? std::optional(wire.probe_input) : std::nullopt,
+                      .tick = {wire.probe_tick},
+                      .places_mm = {}};
     for (const double mm : std::span(wire.probe_places_mm._buffer, wire.probe_places_mm._length)) {
         check.finite("probe_places_mm", mm);
         probe.places_mm.append(mm);
@@ -224,6 +228,7 @@ void to_wire(const MachineState& state, MachineStateMessage& message) {
             .has_probe = state.probe.has_value(),
             .probe_job = 0,
             .probe_touched = false,
+            .probe_input = 0,
             .probe_tick = 0,
             .probe_places_mm = {},
             .has_homing = state.homing.has_value(),

@@ -185,12 +185,13 @@ TEST(ProbingWords, WorkLineByLine) {
 }
 
 TEST(ReceivedTouch, HasAPlaceForEachAxisOfTheMachine) {
-    ProbeResult result{.job = 7, .touched = true, .tick = {}, .places_mm = {}};
+    ProbeResult result{.job = 7, .input = 3, .tick = {}, .places_mm = {}};
     result.places_mm.append(1);
     result.places_mm.append(2);
     const auto touch = touch_from(result, {3, 4});
     ASSERT_TRUE(touch);
     EXPECT_TRUE(touch->touched);
+    EXPECT_EQ(touch->input, 3U);
     EXPECT_THAT(touch->places_mm, ElementsAre(1, 2));
     EXPECT_THAT(touch->rest_mm, ElementsAre(3, 4));
     const auto other = touch_from(result, {3, 4, 5});

@@ -92,7 +92,7 @@ TEST_F(LooseRecords, HaveThePlacesOfTheSlidesAtTouches) {
         const double x_mm = recorded.vm().device(0).plant().position_mm();
         recorded.vm().set_input(0, true);
         ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
-        ASSERT_TRUE(recorded.vm().state()->probe && recorded.vm().state()->probe->touched);
+        ASSERT_TRUE(recorded.vm().state()->probe && recorded.vm().state()->probe->touched());
         EXPECT_NEAR(recorded.vm().state()->probe->places_mm[0], x_mm, 0.05) << "the play is 0.1 mm";
     }
     EXPECT_FALSE(findings().difference) << to_text(findings());

@@ -75,7 +75,7 @@ TEST_F(ProbingMoves, TellsWhereEveryAxisWasAtTheTickOfTheTouch) {
     touch();
     ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
     EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
-    ASSERT_TRUE(vm.state()->probe && result().touched);
+    ASSERT_TRUE(vm.state()->probe && result().touched());
     expect_place_of_touch();
     EXPECT_GT(result().places_mm[kX], 10);
     EXPECT_LT(result().places_mm[kX], 30);
@@ -127,7 +127,7 @@ TEST_F(ProbingMoves, AnOpeningTouchEndsIt) {
     EXPECT_EQ(vm.state()->phase, MachinePhase::Running);
     touch(false);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
-    ASSERT_TRUE(result().touched);
+    ASSERT_TRUE(result().touched());
     expect_place_of_touch();
 }
 
@@ -138,7 +138,7 @@ TEST_F(ProbingMoves, WithoutATouchEndsEarlyAtItsEnd) {
     EXPECT_EQ(vm.state()->job_fault, FaultCode::ProbeNotTouched);
     EXPECT_EQ(vm.state()->fault, FaultCode::None) << "the machine itself is well";
     ASSERT_TRUE(vm.state()->probe);
-    EXPECT_FALSE(result().touched);
+    EXPECT_FALSE(result().touched());
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{1500, 500}));
     EXPECT_EQ(result().places_mm[kX], 15);
 }
@@ -147,7 +147,7 @@ TEST_F(ProbingMoves, MayMissIfTheProgramSaysSo) {
     begin(probe_to({15, 5}, {.must_touch = false}));
     ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
     EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
-    EXPECT_FALSE(result().touched);
+    EXPECT_FALSE(result().touched());
 }
 
 TEST_F(ProbingMoves, DoesNotMoveIfTheProbeTouchesAlready) {
@@ -178,7 +178,7 @@ TEST_F(ProbingMoves, FindsATouchWhileItComesToAHold) {
     touch();
     wait(2);
     EXPECT_EQ(vm.state()->phase, MachinePhase::Idle) << describe();
-    ASSERT_TRUE(result().touched);
+    ASSERT_TRUE(result().touched());
     expect_place_of_touch();
 }
 
@@ -192,7 +192,7 @@ TEST_F(ProbingMoves, GoesOnAfterAHoldUntilItTouches) {
     touch();
     ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
     EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
-    ASSERT_TRUE(result().touched);
+    ASSERT_TRUE(result().touched());
     expect_place_of_touch();
 }
 

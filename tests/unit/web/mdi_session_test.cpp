@@ -111,7 +111,7 @@ TEST(MdiProbe, TheNextLineKnowsWhereTheProbeTouchedAndWhereTheAxesRest) {
     ASSERT_TRUE(mdi.read(line, real_start(snapshot, machine).value()));
     mdi.answer(true, 7);
 
-    ProbeResult probe{.job = 7, .touched = true, .tick = {}, .places_mm = {}};
+    ProbeResult probe{.job = 7, .input = 0, .tick = {}, .places_mm = {}};
     for (const double mm : from_mm) { probe.places_mm.append(mm); }
     probe.places_mm[0] += 2;
     snapshot.machine->value.probe = probe;
@@ -133,7 +133,7 @@ TEST(MdiProbe, AResultOfAnotherMachineIsNotTaken) {
     MdiSession mdi(machine);
     ASSERT_TRUE(mdi.read("G91 G38.2 X4 F60", real_start(snapshot, machine).value()));
     mdi.answer(true, 7);
-    snapshot.machine->value.probe = ProbeResult{.job = 7, .touched = true, .tick = {}, .places_mm = {}};
+    snapshot.machine->value.probe = ProbeResult{.job = 7, .input = 0, .tick = {}, .places_mm = {}};
     mdi.see(snapshot);
     EXPECT_TRUE(mdi.read("G0 X1", real_start(snapshot, machine).value())) << "the session begins again";
 }

@@ -53,7 +53,7 @@ AxisState RandomMessages::axis_state() {
             .outputs = static_cast<std::uint16_t>(bits()),
             .pulses_left = static_cast<std::uint32_t>(bits()),
             .analog = analog_levels(),
-            .touch = maybe(EpochTouch{bits(), {far()}})};
+            .touch = maybe(EpochTouch{bits(), {far()}, static_cast<std::uint8_t>(index(kMostInputs))})};
 }
 
 AxisHealth RandomMessages::axis_health() {
@@ -148,6 +148,7 @@ MachineState RandomMessages::machine_state() {
             .devices = devices(),
             .lease = maybe(HeldLease{writer(), {far()}}),
             .pause = maybe(pause()),
+            .probe = maybe(probe()),
             .job_kind = coin() ? JobKind::Run : JobKind::Move,
             .program = maybe(bits()),
             .events_from = static_cast<std::uint32_t>(bits()),
@@ -156,6 +157,16 @@ MachineState RandomMessages::machine_state() {
             .published = {.job_events = bits(), .program_parts = bits()},
             .lost_records = bits(),
             .process = {.reopened = bits(), .lost_log_lines = bits()}};
+}
+
+ProbeResult RandomMessages::probe() {
+    ProbeResult probe{
+        .job = bits(), .input = maybe(static_cast<std::uint32_t>(bits())), .tick = {far()}, .places_mm = {}};
+    const auto axes = index(kMaxAxes + 1);
+    while (probe.places_mm.size() < axes) {
+        probe.places_mm.append(static_cast<double>(between(-1'000'000, 1'000'000)) / 7);
+    }
+    return probe;
 }
 
 MachinePause RandomMessages::pause() {

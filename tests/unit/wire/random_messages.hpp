@@ -21,6 +21,7 @@ public:
     MachineState machine_state();
     StaticVector<FrameRest, kMaxRests> rests();
     MachinePause pause();
+    ProbeResult probe();
     LeaseHolder writer();
     std::vector<JogAxis> jogs();
     Command command();

@@ -16,7 +16,7 @@ public:
         : recording_(recording), job_(job), probe_(*job.probe) {}
 
     Violations check() {
-        if (!probe_.result.touched) {
+        if (!probe_.result.touched()) {
             check_unnoticed();
             return std::move(violations_);
         }
@@ -100,6 +100,17 @@ private:
         }
     }
 
+        check_input(pressed + most);
+    }
+
+    /// The reported input is one that touched first. `latest`: for the first touch, as the clocks know it.
+    void check_input(Tick latest) {
+        const bool is_first = std::ranges::any_of(probe_.touches, [&](const TouchRecord& touch) {
+            return touch.input == *probe_.result.input && touch.pressed <= latest;
+        });
+        if (!is_first) {
+            object("input " + std::to_string(*probe_.result.input) + " is reported, but it did not touch first");
+        }
     /// The probe touched while the machine still moved afterwards, and no fault explains why that was missed.
     void check_unnoticed() {
         if (probe_.touches.empty() || !probe_.is_undisturbed) { return; }

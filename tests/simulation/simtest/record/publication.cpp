@@ -79,7 +79,7 @@ struct Hash {
     void add(const HeldLease& lease) { of(lease.writer.id, lease.writer.name, lease.writer.host, lease.since); }
     void add(const MachinePause& pause) { of(pause.why.reason, pause.why.tool, pause.why.text, pause.place); }
     void add(const FrameRest& rest) { of(rest.frame, rest.place, rest.last, rest.digest); }
-    void add(const ProbeResult& p) { of(p.job, p.touched, p.tick, p.places_mm); }
+    void add(const ProbeResult& p) { of(p.job, p.touched(), p.tick, p.places_mm); }
     void add(const MachineState& s) {
         of(s.term, s.stamp, s.tick, s.phase, s.fault, s.fault_axis, s.epoch, s.sent, s.veto, s.job, s.outcome,
            s.job_begun, s.line, s.job_fault, s.lacks_blocks, s.progress, s.remaining_s, s.overrides, s.axes_present,

@@ -113,7 +113,8 @@ struct Claim {
 
 /// A touch of an input of a probe.
 struct TouchRecord {
-    std::size_t motor = 0;  // whose device has the input
+    std::size_t input = 0;  // of the machine
+    std::size_t motor = 0;  // whose device has it
     Tick pressed;
     Ticks debounce;
 };
@@ -143,7 +144,7 @@ struct JobRecord {
     std::optional<ProbeRecord> probe;
 
     /// All of the program was run.
-    bool is_whole() const { return outcome == JobOutcome::Done && !(probe && probe->result.touched); }
+    bool is_whole() const { return outcome == JobOutcome::Done && !(probe && probe->result.touched()); }
 };
 
 /// An emergency stop, from the command, or from the pressing of an input, until the machine is at rest.

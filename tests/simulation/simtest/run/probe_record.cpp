@@ -60,8 +60,10 @@ std::vector<std::size_t> probe_inputs(const MachineConfig& machine) {
 TouchRecord touch_record(const MachineConfig& machine, std::size_t input, Tick pressed) {
     const InputConfig& config = machine.inputs[input];
     const double debounce = std::ceil(config.debounce_ms * 1e-3 * machine.ticks_per_second());
-    return {
-        .motor = motor_named(machine, config.motor).value(), .pressed = pressed, .debounce = {std::llround(debounce)}};
+    return {.input = input,
+            .motor = motor_named(machine, config.motor).value(),
+            .pressed = pressed,
+            .debounce = {std::llround(debounce)}};
 }
 
 ProbeRecord probe_record(Bench& bench, const Program& program, const JobRecord& job, const Counts& at) {

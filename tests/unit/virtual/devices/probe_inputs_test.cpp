@@ -9,9 +9,9 @@
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kOfX = 0;
-constexpr std::size_t kOfBoard = 1;
-constexpr std::size_t kSlowOfBoard = 2;  // with a long debounce
+constexpr std::uint32_t kOfX = 0;
+constexpr std::uint32_t kOfBoard = 1;
+constexpr std::uint32_t kSlowOfBoard = 2;  // with a long debounce
 constexpr double kSpeed_mm_s = 10;
 constexpr Ticks kFirst{1'537'000};  // after the order to probe
 
@@ -60,9 +60,10 @@ protected:
         vm.set_input(input, closed);
         return vm.now();
     }
-    void expect_touch_at(Tick tick, Ticks within = Ticks{1}) {
+    void expect_touch_of(std::uint32_t input, Tick tick, Ticks within = Ticks{1}) {
         ASSERT_TRUE(reaches(MachinePhase::Idle, 6)) << describe();
-        ASSERT_TRUE(vm.state()->probe && vm.state()->probe->touched);
+        ASSERT_TRUE(vm.state()->probe);
+        EXPECT_EQ(vm.state()->probe->input, input);
         EXPECT_LE(std::abs((vm.state()->probe->tick - tick).value), within.value);
         EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
         EXPECT_EQ(fault(), FaultCode::None);
@@ -83,10 +84,10 @@ protected:
 };
 
 TEST_F(ProbeOfSeveralInputs, EndsAtTheTouchOfAnyOfThem) {
-    for (const std::size_t input : {kOfX, kOfBoard}) {
+    for (const std::uint32_t input : {kOfX, kOfBoard}) {
         begin();
         const Tick touch = change(input, kFirst);
-        expect_touch_at(touch);
+        expect_touch_of(input, touch);
         expect_places();
         vm.set_input(input, false);
         wait(0.5);
@@ -98,9 +99,9 @@ TEST_F(ProbeOfSeveralInputs, TheFirstTouchCountsInBothOrders) {
         begin();
         const Tick touch = change(first, kFirst);
         (void)change(second, Ticks{30'000});
-        expect_touch_at(touch);
+        expect_touch_of(first, touch);
         expect_places();
-        for (const std::size_t input : {first, second}) { vm.set_input(input, false); }
+        for (const std::uint32_t input : {first, second}) { vm.set_input(input, false); }
         wait(0.5);
     }
 }
@@ -109,7 +110,7 @@ TEST_F(ProbeOfSeveralInputs, TouchesAtOneTickAreOne) {
     begin();
     const Tick touch = change(kOfBoard, kFirst);
     vm.set_input(kOfX, true);
-    expect_touch_at(touch);
+    expect_touch_of(kOfX, touch);
     expect_places();
 }
 
@@ -117,7 +118,7 @@ TEST_F(ProbeOfSeveralInputs, ATouchThatIsKnownLaterButWasEarlierCounts) {
     begin();
     const Tick touch = change(kSlowOfBoard, kFirst);
     (void)change(kOfX, Ticks{50'000});
-    expect_touch_at(touch);
+    expect_touch_of(kSlowOfBoard, touch);
     expect_places();
 }
 
@@ -125,7 +126,7 @@ TEST_F(ProbeOfSeveralInputs, AnEarlierTouchOfTheSameDeviceCounts) {
     begin();
     const Tick touch = change(kSlowOfBoard, kFirst);
     (void)change(kOfBoard, Ticks{50'000});
-    expect_touch_at(touch);
+    expect_touch_of(kSlowOfBoard, touch);
     expect_places();
 }
 
@@ -145,7 +146,7 @@ TEST_F(ProbeOfSeveralInputs, FindATouchDuringAHold) {
     wait(1);
     ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
     const Tick touch = change(kOfBoard, Ticks{1'000});
-    expect_touch_at(touch);
+    expect_touch_of(kOfBoard, touch);
     expect_places();
 }
 
@@ -156,7 +157,7 @@ TEST_F(ProbeOfSeveralInputs, AwayEndsWhenTheFirstOfTheClosedOnesOpens) {
     wait(0.1);
     begin({.opens = true});
     const Tick touch = change(kOfBoard, kFirst, false);
-    expect_touch_at(touch);
+    expect_touch_of(kOfBoard, touch);
     expect_places();
 }
 
@@ -192,7 +193,7 @@ TEST_F(ProbeOfSeveralClocks, GivesTheFirstTouchWithinTheErrorOfTheClocks) {
     begin();
     const Tick touch = change(kOfX, kFirst);
     (void)change(kOfBoard, Ticks{20'000});
-    expect_touch_at(touch, widest_error() + Ticks{2});
+    expect_touch_of(kOfX, touch, widest_error() + Ticks{2});
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST_F(FaultsAtTouches, DoNotFollowFromAProbingMoveOfTheInput) {
     touch();
     ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
     EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
-    EXPECT_TRUE(vm.state()->probe->touched);
+    EXPECT_TRUE(vm.state()->probe->touched());
 }
 
 TEST_F(FaultsAtTouches, DoNotFollowFromATouchAtRest) {
