@@ -93,14 +93,30 @@ void put_home_switch(Plant& plant, const InputConfig& input, const MachineConfig
                     input.active_low);
 }
 
+PlantContact limit_of(const InputConfig& input) {
+    return input.use == InputUse::LimitMin ? &PlantInputs::limit_min : &PlantInputs::limit_max;
+}
+
+/// The motor's own switch that has this input; null if it is another one.
+PlantContact contact_of(const InputConfig& input) {
+    if (input.use == InputUse::Home && !input.at_board && input.channel < kSwitchInputs) { return &PlantInputs::home; }
+    return input.is_limit_of_device() ? limit_of(input) : nullptr;
+}
+
 }  // namespace
 
 Plant plant_of(const MachineConfig& machine, const MotorConfig& motor) {
     Plant plant(motor, machine.tick_ns);
     if (motor.is_board()) { plant.remove_switches(); }
     for (const InputConfig& input : machine.inputs) {
+        const bool is_of_axis = motor.axis && machine.axes[*motor.axis].name == input.axis;
+        if (input.is_limit_by_message() && is_of_axis) { plant.unwire(limit_of(input)); }
         if (input.motor != motor.name) { continue; }
         set_input(plant, input, false);
+        if (const PlantContact contact = contact_of(input); contact != nullptr) {
+            plant.wire(contact, static_cast<unsigned>(input.channel), input.active_low);
+            continue;
+        }
         if (input.use == InputUse::Probe) { put_probe(plant, input, motor); }
         if (input.use == InputUse::Home) { put_home_switch(plant, input, machine, motor); }
     }

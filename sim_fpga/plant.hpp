@@ -49,11 +49,20 @@ public:
     /// Puts something for a probe at a place, in steps since power-up: at and beyond it the pin of input `input` is
     /// high, or low. Inputs put there before stay, but all at this place.
     void put_probe(unsigned input, std::int64_t at, bool toward_min, bool low = false) {
-        (low ? probe_.low : probe_.high) |= std::uint32_t{1} << input;
+        (low ? probe_.wires.low : probe_.wires.high) |= std::uint32_t{1} << input;
         probe_.at = at;
         probe_.toward_min = toward_min;
     }
-    /// Sets the pin of an input that no switch uses, as a device beside the axis does.
+    /// The switch also sets the pin of input `input`: high while it is closed, or low.
+    void wire(PlantContact contact, unsigned input, bool low = false) {
+        const std::uint32_t bit = std::uint32_t{1} << input;
+        Wires& wires = wires_of(contact);
+        wires.high = low ? wires.high & ~bit : wires.high | bit;
+        wires.low = low ? wires.low | bit : wires.low & ~bit;
+    }
+    /// The switch sets no pin from now on.
+    void unwire(PlantContact contact) { wires_of(contact) = {}; }
+    /// Sets the pin of an input, as a device beside the axis does. A closed switch overrides it.
     void set_pin(unsigned input, bool high) {
         const std::uint32_t bit = std::uint32_t{1} << input;
         others_ = high ? others_ | bit : others_ & ~bit;
@@ -80,13 +89,16 @@ public:
         };
         return {read(&PlantInputs::limit_min), read(&PlantInputs::limit_max), read(&PlantInputs::home)};
     }
-    /// The levels of the device's input pins; pin n is bit n. The switches are at 0, 1 and 2, and high when closed.
+    /// The levels of the device's input pins; pin n is bit n. The switches are at 0, 1 and 2, and high when closed,
+    /// unless they are wired otherwise.
     std::uint32_t pins() const {
         const PlantInputs switches = inputs();
+        std::uint32_t pins = others_;
+        if (switches.limit_min) { pins = limit_min_.close(pins); }
+        if (switches.limit_max) { pins = limit_max_.close(pins); }
+        if (switches.home) { pins = home_.close(pins); }
         const bool touches = probe_.toward_min ? slide_ <= probe_.at : slide_ >= probe_.at;
-        const std::uint32_t open =
-            (switches.limit_min ? 1U : 0U) | (switches.limit_max ? 2U : 0U) | (switches.home ? 4U : 0U) | others_;
-        return touches ? (open | probe_.high) & ~probe_.low : open;
+        return touches ? probe_.wires.close(pins) : pins;
     }
 
 private:
@@ -113,9 +125,21 @@ private:
     bool has_switches_ = true;
     PlantInputs stuck_closed_;
     PlantInputs stuck_open_;
-    struct Probe {
-        std::uint32_t high = 0;  // pins that are high when it touches
+    /// The pins that a contact sets when it closes.
+    struct Wires {
+        std::uint32_t high = 0;
         std::uint32_t low = 0;
+        std::uint32_t close(std::uint32_t pins) const { return (pins | high) & ~low; }
+    };
+    Wires& wires_of(PlantContact contact) {
+        if (contact == &PlantInputs::home) { return home_; }
+        return contact == &PlantInputs::limit_min ? limit_min_ : limit_max_;
+    }
+    Wires limit_min_{.high = 1};
+    Wires limit_max_{.high = 2};
+    Wires home_{.high = 4};
+    struct Probe {
+        Wires wires;
         std::int64_t at = 0;
         bool toward_min = false;
     };
@@ -135,7 +159,8 @@ private:
 };
 
 /// The plant of a motor of the machine. Nobody touches its inputs: all are open, except those of probes at and beyond
-/// plant.probe_at_mm and those of home switches.
+/// plant.probe_at_mm and those of home and limit switches. A limit switch that an input of the machine's file has, by
+/// the axis, is not one of the motor's.
 Plant plant_of(const MachineConfig& machine, const MotorConfig& motor);
 /// Closes or opens an input of the machine whose pin is at this plant.
 inline void set_input(Plant& plant, const InputConfig& input, bool closed) {

@@ -155,6 +155,7 @@ void Coordinator::own(CoordinatorLoop& loop) {
     watch_.look(axes_, jobs_, loop);
     commands::hold_for_inputs(jobs_, loop);
     touch_watch_.look(jobs_, loop);
+    switch_watch_.look(jobs_, loop);
     inbox_.take_each([&](const Command& command) { answer(command, loop); });
     advance_jogs(jobs_, loop);
     if (!gate_.enter(loop.slot)) { return; }

@@ -9,6 +9,7 @@
 #include "core/coordinator/jobs/inherited_job.hpp"
 #include "core/coordinator/jobs/job_lifecycle.hpp"
 #include "core/coordinator/ownership.hpp"
+#include "core/coordinator/switch_watch.hpp"
 #include "core/coordinator/touch_watch.hpp"
 #include "core/coordinator/writer_lease.hpp"
 #include "core/protocol/slot_gate.hpp"
@@ -70,6 +71,7 @@ private:
     BeginSteps begin_steps_;
     JobLifecycle jobs_;
     TouchWatch touch_watch_;
+    SwitchWatch switch_watch_;
     Inheritance inheritance_;
     AxisWatch watch_;
     SlotGate gate_;

@@ -29,7 +29,10 @@ namespace lockstep {
     /* moves end where it touches */ \
     X(Probe, "probe", "", 'P', None) \
     /* the switch of axes whose motors are not those of its device alone */ \
-    X(Home, "home", "", 0, None)
+    X(Home, "home", "", 0, None) \
+    /* the switches at the ends of a motor's way, or of an axis's */ \
+    X(LimitMin, "limit-min", "limit switch", 0, None) \
+    X(LimitMax, "limit-max", "limit switch", 0, None)
 // clang-format on
 
 enum class InputUse : std::uint8_t {
@@ -66,6 +69,8 @@ enum class TouchInMotion : std::uint8_t {
 
 /// Inputs 0, 1 and 2 of a motor's device have its switches: the limit switches and the home switch. A board has none.
 inline constexpr int kSwitchInputs = 3;
+inline constexpr std::array kSwitchUses{InputUse::LimitMin, InputUse::LimitMax, InputUse::Home};
+static_assert(kSwitchUses.size() == kSwitchInputs);
 
 struct InputConfig {
     std::string name;
@@ -76,11 +81,19 @@ struct InputConfig {
     bool active_low = false;                       // closed while the pin is low
     double debounce_ms = 1;                        // for how long the pin must keep its level until the input follows
     std::optional<int> number;                     // under which programs know it: Program, Probe
-    double max_overshoot_mm = kUsualOvershoot_mm;  // how far a move may go on behind the touch: Probe, Home
+    double max_overshoot_mm = kUsualOvershoot_mm;  // how far a move may go on behind the touch: Probe, Home, see axis
     TouchInMotion at_touch_in_motion = TouchInMotion::Nothing;  // Probe
+    // LimitMin, LimitMax: the axis at whose end the switch is, if the coordinator stops the machine. Empty: the device
+    // stops its motor.
+    std::string axis;
 
     static constexpr double kUsualOvershoot_mm = 1;
     bool operator==(const InputConfig&) const = default;
+
+    bool is_limit() const { return use == InputUse::LimitMin || use == InputUse::LimitMax; }
+    /// The device does not stop the motor, but the coordinator the machine.
+    bool is_limit_by_message() const { return is_limit() && !axis.empty(); }
+    bool is_limit_of_device() const { return is_limit() && axis.empty(); }
 };
 
 /// The first input of this use that programs know by this number; null if there is none.

@@ -214,6 +214,8 @@ DeviceSetup setup_of(const MachineConfig& machine, const MotorConfig& motor) {
         if (input.motor != motor.name) { continue; }
         setup.inputs_inverted |= input.active_low ? std::uint32_t{1} << input.channel : 0;
         setup.debounce[static_cast<std::size_t>(input.channel)] = ticks(input.debounce_ms);
+        if (!input.is_limit_of_device()) { continue; }
+        (input.use == InputUse::LimitMin ? setup.limit_min : setup.limit_max) |= std::uint32_t{1} << input.channel;
     }
     return setup;
 }

@@ -1,11 +1,26 @@
 #include "core/kinematics/motor_inputs.hpp"
 
+#include <algorithm>
+
 #include "core/kinematics/motors.hpp"
 
 namespace lockstep {
 namespace {
 
 std::uint32_t bit_of(const InputConfig& input) { return std::uint32_t{1} << input.channel; }
+
+bool may_cause(const InputConfig& input, FaultCode fault) {
+    switch (fault) {
+        case FaultCode::EmergencyStopInput: return input.use == InputUse::EmergencyStop;
+        case FaultCode::TouchInMotion: return input.use == InputUse::Probe;
+        case FaultCode::LimitHit: return input.is_limit();
+        default: return false;
+    }
+}
+
+std::string motor_in_fault(const MachineConfig& machine, const InputConfig& input) {
+    return input.is_limit_by_message() ? motor_name(machine, motor_at_limit(machine, input)) : input.motor;
+}
 
 }  // namespace
 
@@ -28,13 +43,20 @@ std::string label_of(const InputConfig& input) {
     return "input " + input.name + (input.at_board ? " of board " : " of motor ") + input.motor;
 }
 
-std::string labels_of(const MachineConfig& machine, std::string_view motor, InputUse use) {
+std::string causes_of(const MachineConfig& machine, std::string_view motor, FaultCode fault) {
     std::string text;
     for (const InputConfig& input : machine.inputs) {
-        if (input.motor != motor || input.use != use) { continue; }
+        if (!may_cause(input, fault) || motor_in_fault(machine, input) != motor) { continue; }
         text += (text.empty() ? "" : " or ") + label_of(input);
     }
     return text;
+}
+
+std::size_t motor_at_limit(const MachineConfig& machine, const InputConfig& input) {
+    const auto axis = std::ranges::find(machine.axes, input.axis, &AxisConfig::name) - machine.axes.begin();
+    const auto motors = motors_of(machine);
+    const auto first = std::ranges::find(motors, static_cast<std::size_t>(axis), &MotorConfig::axis);
+    return static_cast<std::size_t>(first - motors.begin());
 }
 
 MotorInputs::MotorInputs(const MachineConfig& machine) {

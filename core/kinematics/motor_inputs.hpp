@@ -21,14 +21,12 @@ std::optional<std::uint32_t> input_at(const MachineConfig& machine, std::string_
 /// For texts: "input stop of motor X", or "input door of board IO".
 std::string label_of(const InputConfig& input);
 
-/// The same for all inputs of the motor with this use: "input stop of motor X or input gate of motor X".
-std::string labels_of(const MachineConfig& machine, std::string_view motor, InputUse use);
+/// The same for all inputs that can cause this fault of a motor: "input stop of motor X or input gate of motor X".
+/// Empty: none can.
+std::string causes_of(const MachineConfig& machine, std::string_view motor, FaultCode fault);
 
-/// The use of the inputs that cause this fault of a motor; nullopt: no input causes it.
-constexpr std::optional<InputUse> use_of_inputs_in(FaultCode fault) {
-    if (fault == FaultCode::EmergencyStopInput) { return InputUse::EmergencyStop; }
-    return fault == FaultCode::TouchInMotion ? std::optional(InputUse::Probe) : std::nullopt;
-}
+/// The number of the first motor of the axis that an input names, a limit switch.
+std::size_t motor_at_limit(const MachineConfig& machine, const InputConfig& input);
 
 /// Where the machine's inputs are: each by the number of its motor, in the order of the machine's file.
 class MotorInputs {

@@ -192,9 +192,10 @@ private:
     }
 
     std::string cause_of(const CoordinatorNotice& fault, const FaultText& text) const {
-        const auto use = use_of_inputs_in(fault.fault);
-        if (!use) { return std::string(text.cause); }
-        return std::string(text.cause) + ": " + labels_of(machine_, motor_name(machine_, fault.number), *use);
+        const bool has_motor = is_of_an_axis(fault.fault) && fault.number < motor_count(machine_);
+        const std::string inputs =
+            has_motor ? causes_of(machine_, motor_name(machine_, fault.number), fault.fault) : "";
+        return std::string(text.cause) + (inputs.empty() ? "" : ": " + inputs);
     }
 
     std::string touch_text(std::uint64_t input) const {

@@ -86,6 +86,15 @@ double usual_silence_ms(const ProtocolTiming& timing) {
     return std::max(MachineConfig{}.output_silence_ms, 5 * stall_ms);
 }
 
+/// "EMERGENCY_STOP, DOOR or HOME"
+std::string choice_of(const google::protobuf::EnumDescriptor& values) {
+    std::string text = values.value(0)->name();
+    for (int i = 1; i < values.value_count(); ++i) {
+        text += (i + 1 == values.value_count() ? " or " : ", ") + values.value(i)->name();
+    }
+    return text;
+}
+
 InputConfig read_input(const proto::Input& message, const std::string& place, ProtoReader reader) {
     InputConfig input;
     reader.require(message.has_name(), message.name(), input.name, place + ".name");
@@ -101,6 +110,7 @@ InputConfig read_input(const proto::Input& message, const std::string& place, Pr
     if (input.use == InputUse::Probe) { input.number = 0; }
     if (message.has_number()) { input.number = message.number(); }
     if (message.has_max_overshoot_mm()) { input.max_overshoot_mm = message.max_overshoot_mm(); }
+    input.axis = message.axis();
     input.at_touch_in_motion = value_of<TouchInMotion>(message.at_touch_in_motion());
     if (!proto::TouchInMotion_IsValid(message.at_touch_in_motion())) {
         const std::string key = place + ".at_touch_in_motion";

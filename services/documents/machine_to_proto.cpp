@@ -206,7 +206,8 @@ void write_input(const InputConfig& input, proto::Input& message) {
     message.set_active_low(input.active_low);
     message.set_debounce_ms(input.debounce_ms);
     if (input.number) { message.set_number(*input.number); }
-    const bool ends_moves = input.use == InputUse::Probe || input.use == InputUse::Home;
+    const bool ends_moves = input.use == InputUse::Probe || input.use == InputUse::Home || input.is_limit_by_message();
+    if (!input.axis.empty()) { message.set_axis(input.axis); }
     if (ends_moves) { message.set_max_overshoot_mm(input.max_overshoot_mm); }
     const TouchInMotion touch = input.at_touch_in_motion;
     if (touch != TouchInMotion::Nothing) { message.set_at_touch_in_motion(static_cast<proto::TouchInMotion>(touch)); }

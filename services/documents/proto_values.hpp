@@ -28,7 +28,9 @@ static_assert(has_number_of(TouchInMotion::Nothing, proto::NOTHING) &&
 static_assert(kCountOf<InputUse> == proto::InputUse_ARRAYSIZE);
 static_assert(has_number_of(InputUse::EmergencyStop, proto::EMERGENCY_STOP) &&
               has_number_of(InputUse::Door, proto::DOOR) && has_number_of(InputUse::Program, proto::PROGRAM) &&
-              has_number_of(InputUse::Probe, proto::PROBE) && has_number_of(InputUse::Home, proto::HOME));
+              has_number_of(InputUse::Probe, proto::PROBE) && has_number_of(InputUse::Home, proto::HOME) &&
+              has_number_of(InputUse::LimitMin, proto::LIMIT_MIN) &&
+              has_number_of(InputUse::LimitMax, proto::LIMIT_MAX));
 
 static_assert(kCountOf<OutputUse> == proto::OutputUse_ARRAYSIZE);
 #define X(use, key, has_number, may_be_analog) static_assert(has_number_of(OutputUse::use, proto::key));

@@ -9,7 +9,7 @@
 
 #include "services/axis/axis_node.hpp"
 #include "services/axis/window_port.hpp"
-#include "services/virtual/home_switches.hpp"
+#include "services/virtual/axis_switches.hpp"
 #include "services/virtual/late_link.hpp"
 #include "services/virtual/machine_clocks.hpp"
 #include "services/virtual/virtual_fault.hpp"
@@ -39,7 +39,7 @@ public:
     void end(const VirtualFault& fault, Tick now) { apply(fault, false, now); }
     /// Closes or opens an input of the machine, by its number there.
     void set_input(std::size_t input, bool closed, Tick now);
-    /// The switches of axes that home by touch follow these, to 16 ticks.
+    /// The switches of axes follow these, to 16 ticks.
     void follow_switches(Tick now);
 
 private:
@@ -64,7 +64,7 @@ private:
     std::vector<MotorConfig> motors_;
     std::uint64_t seed_;
     std::vector<Device> devices_;
-    HomeSwitches switches_;
+    AxisSwitches switches_;
     Tick followed_;  // by switches_
     bool may_change_ = true;
 };

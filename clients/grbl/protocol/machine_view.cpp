@@ -52,6 +52,11 @@ std::string letters_of_inputs(const MachineConfig& machine,
     for (const InputUseRow& row : kInputUses | std::views::reverse) {
         if (row.letter != 0 && inputs.closed(row.use, closed_of)) { letters += row.letter; }
     }
+    for (std::size_t i = 0; i < machine.inputs.size(); ++i) {
+        const InputConfig& input = machine.inputs[i];
+        const bool is_at_limit = input.is_limit_by_message() && inputs.is_closed(i, closed_of);
+        if (is_at_limit) { letters.insert(letters.begin(), input.axis.front()); }
+    }
     return letters;
 }
 

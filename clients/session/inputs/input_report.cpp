@@ -31,9 +31,8 @@ void add_inputs(const MachineConfig& machine, const ClosedInputs& closed_of, pro
 }
 
 void name_inputs(const MachineConfig& machine, std::size_t motor, proto::FaultReport& fault) {
-    const auto use = use_of_inputs_in(static_cast<FaultCode>(fault.number()));
-    if (!use) { return; }
-    fault.set_cause(fault.cause() + ": " + labels_of(machine, motor_name(machine, motor), *use));
+    const auto inputs = causes_of(machine, motor_name(machine, motor), static_cast<FaultCode>(fault.number()));
+    if (!inputs.empty()) { fault.set_cause(fault.cause() + ": " + inputs); }
 }
 
 void name_closed_probes(const proto::StatusReport& status, proto::FaultReport& fault) {

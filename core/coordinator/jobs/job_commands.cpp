@@ -62,6 +62,12 @@ CommandResult check_ready(const MachineActivity& activity, const LoopView& loop)
     return refuse(FaultCode::NotReady, "some axes do not follow the coordinator yet, or are not at rest");
 }
 
+/// The same for a job that may move any axis in any direction.
+CommandResult check_ready_to_move(const MachineActivity& activity, const LoopView& loop) {
+    const CommandResult ready = check_ready(activity, loop);
+    return ready ? check_limits(loop) : ready;
+}
+
 /// A motor that moves several axes must home with all of them, because their places are known together or not at all.
 CommandResult check_homes_alone(AxisSet axes, const LoopView& loop) {
     for (std::size_t m = 0; m < loop.kinematics.motors().size(); ++m) {
@@ -183,7 +189,7 @@ std::expected<std::shared_ptr<const KnownProgram>, Refusal> known_program(const 
 }
 
 CommandResult home(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    if (auto ready = check_ready(jobs.activity(), loop); !ready) { return ready; }
+    if (auto ready = check_ready_to_move(jobs.activity(), loop); !ready) { return ready; }
     const AxisSet all = all_axes(loop.machine.axes.size());
     if ((command.axes & ~all) != 0) { return refuse(FaultCode::BadProgram, "the machine does not have this axis"); }
     const AxisSet axes = command.axes == 0 ? all : command.axes;
@@ -200,7 +206,7 @@ CommandResult home(const Command& command, JobLifecycle& jobs, CoordinatorLoop& 
 }
 
 CommandResult run(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    if (auto ready = check_ready(jobs.activity(), loop); !ready) { return ready; }
+    if (auto ready = check_ready_to_move(jobs.activity(), loop); !ready) { return ready; }
     const auto program = program_of(command, loop, coordination_of(loop.machine).plans_whole);
     if (!program) { return std::unexpected(program.error()); }
     if (auto homed = check_homed(loop); !homed) { return homed; }
@@ -219,7 +225,7 @@ CommandResult run(const Command& command, JobLifecycle& jobs, CoordinatorLoop& l
 }
 
 CommandResult move_own(const Command& command, BeginSteps begin_steps, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    if (auto ready = check_ready(jobs.activity(), loop); !ready) { return ready; }
+    if (auto ready = check_ready_to_move(jobs.activity(), loop); !ready) { return ready; }
     const auto program = program_of(command, loop, true);
     if (!program) { return std::unexpected(program.error()); }
     if (auto fits = check_program(**program, jobs.path().planner(), loop); !fits) { return fits; }
@@ -263,6 +269,7 @@ CommandResult begin_path_jog(const Command& command, Tick renewed, JobLifecycle&
 CommandResult jog(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop) {
     MachineActivity& activity = jobs.activity();
     if (auto closed = check_holding_inputs(loop); !closed && !command.jogs.empty()) { return closed; }
+    if (auto away = check_jogs_at_limits(command.jogs, loop); !away) { return away; }
     if (auto* const path = activity.as<activity::OnPath>(); path != nullptr && path->jog) {
         return press_on_path(command, *path, jobs, loop);
     }
@@ -324,6 +331,7 @@ CommandResult resume(const Command& command, JobLifecycle& jobs, CoordinatorLoop
     if (!activity.is_held()) { return refuse(FaultCode::NothingToDo, "no job is held or paused"); }
     if (auto present = check_present(loop); !present) { return present; }
     if (auto closed = check_holding_inputs(loop); !closed) { return closed; }
+    if (auto away = check_limits(loop); !away) { return away; }
     if (auto clocks = check_clocks(loop); !clocks) { return clocks; }
     MachineJob& job = *activity.job();
     job.client = job.client.value_or(command.client);

@@ -1,5 +1,6 @@
 #include "core/coordinator/state/refusal.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/kinematics/motor_inputs.hpp"
@@ -7,6 +8,14 @@
 #include "core/protocol/names.hpp"
 
 namespace lockstep {
+namespace {
+
+std::string at_limit_text(const InputConfig& input) {
+    return "axis " + input.axis + " is at its " + (input.use == InputUse::LimitMin ? "lower" : "upper") +
+           " limit switch: " + label_of(input) + " is closed";
+}
+
+}  // namespace
 
 CommandResult check_present(const LoopView& loop) {
     const auto missing = loop.axes.missing(loop.slot);
@@ -59,6 +68,29 @@ CommandResult check_holding_inputs(const LoopView& loop) {
     const FaultText& refusal = *find_fault(row_of(input.use).refusal);
     return refuse(refusal.code, std::string(refusal.cause) + ": " + label_of(input) + " is closed; " +
                                     std::string(refusal.by_hand) + ", then give the command again");
+}
+
+CommandResult check_limits(const LoopView& loop) {
+    for (const InputConfig& input : loop.machine.inputs) {
+        if (!input.is_limit_by_message() || !loop.is_closed(input)) { continue; }
+        return refuse(FaultCode::LimitHit,
+                      at_limit_text(input) + "; jog the axis away from it, then give the command again");
+    }
+    return {};
+}
+
+CommandResult check_jogs_at_limits(const std::vector<JogAxis>& jogs, const LoopView& loop) {
+    for (const InputConfig& input : loop.machine.inputs) {
+        if (!input.is_limit_by_message() || !loop.is_closed(input)) { continue; }
+        const auto is_toward = [&](const JogAxis& jog) {
+            const bool is_its_axis =
+                jog.axis < loop.machine.axes.size() && loop.machine.axes[jog.axis].name == input.axis;
+            return is_its_axis && (jog.speed_mm_s < 0) == (input.use == InputUse::LimitMin);
+        };
+        if (std::ranges::none_of(jogs, is_toward)) { continue; }
+        return refuse(FaultCode::LimitHit, at_limit_text(input) + "; jog the axis in the other direction");
+    }
+    return {};
 }
 
 CommandResult check_emergency_stops(const LoopView& loop) {

@@ -30,6 +30,10 @@ CommandResult check_clocks(const LoopView& loop);
 std::optional<std::size_t> holding_input(const AxisRoster& axes);
 /// Checks that no input holds the machine.
 CommandResult check_holding_inputs(const LoopView& loop);
+/// Checks that no axis is at a limit switch at which the coordinator stops the machine.
+CommandResult check_limits(const LoopView& loop);
+/// Checks that these jogs move no axis toward such a switch that is closed.
+CommandResult check_jogs_at_limits(const std::vector<JogAxis>& jogs, const LoopView& loop);
 /// Checks that no emergency stop is closed.
 CommandResult check_emergency_stops(const LoopView& loop);
 std::unexpected<Refusal> refuse_in_fault(FaultCode fault);

@@ -9,6 +9,7 @@
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
+#include "services/documents/rules/limit_input_rules.hpp"
 #include "services/documents/rules/owner_rules.hpp"
 
 namespace lockstep {
@@ -47,6 +48,7 @@ private:
         check_touch_in_motion(input, at + "at_touch_in_motion");
         check_owner(machine_, {input.motor, input.at_board}, at, problems_);
         const auto motor = std::ranges::find(motors_, input.motor, &MotorConfig::name);
+        check_limit_input(machine_, input, motor == motors_.end() ? nullptr : &*motor, at, problems_);
         if (motor != motors_.end()) { check_channel(input, *motor, before, at + "channel"); }
     }
 
@@ -100,19 +102,28 @@ private:
     }
 
     void check_overshoot(const InputConfig& input, const std::string& key) {
-        const bool ends_moves = input.use == InputUse::Probe || input.use == InputUse::Home;
+        const bool ends_moves =
+            input.use == InputUse::Probe || input.use == InputUse::Home || input.is_limit_by_message();
         problems_.require(
             ends_moves || input.max_overshoot_mm == InputConfig::kUsualOvershoot_mm, key,
-            fmt::format("{} is given, but the input is no probe; remove it, or set use: PROBE or HOME", key));
+            fmt::format("{} is given, but the input is no probe; remove it, or set use: PROBE or HOME, or for a limit "
+                        "switch the axis at whose end it is",
+                        key));
         problems_.require_range(key, input.max_overshoot_mm, kLeastOvershoot_mm, kMaxOvershoot_mm);
     }
 
     void check_channel(const InputConfig& input, const MotorConfig& motor, Inputs before, const std::string& key) {
-        const int first = motor.is_board() ? 0 : kSwitchInputs;
+        const bool is_switch = input.channel >= 0 && input.channel < kSwitchInputs &&
+                               input.use == kSwitchUses[static_cast<std::size_t>(input.channel)];
+        const int first = motor.is_board() ? 0 : is_switch ? input.channel : kSwitchInputs;
         const int last = last_channel(motor);
         const DeviceOwner owner{input.motor, input.at_board};
-        const std::string switches =
-            motor.is_board() ? "" : fmt::format("inputs 0, 1 and 2 have the switches of {}, and ", owner.text());
+        const std::string switches = motor.is_board()
+                                         ? ""
+                                         : fmt::format(
+                                               "inputs 0, 1 and 2 have the switches of {} (use: LIMIT_MIN, "
+                                               "LIMIT_MAX and HOME), and ",
+                                               owner.text());
         problems_.require(input.channel >= first && input.channel <= last, key,
                           fmt::format("{} is {}; it must be from {} to {}: {}its device has {} at most", key,
                                       input.channel, first, last, switches, last + 1));

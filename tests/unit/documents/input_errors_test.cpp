@@ -41,8 +41,9 @@ TEST(Inputs, WrongValuesAreRefusedWithPlaceValueAndRemedy) {
         {with_inputs({R"(name: "a" motor: "Y" channel: 3 use: DOOR)"}),
          "input[0].motor is \"Y\"; it must be one of the machine's motors: X"},
         {with_inputs({R"(name: "a" motor: "X" channel: 2 use: DOOR)"}),
-         "input[0].channel is 2; it must be from 3 to 7: inputs 0, 1 and 2 have the switches of motor X, and its "
-         "device has 8 at most"},
+         "input[0].channel is 2; it must be from 3 to 7: inputs 0, 1 and 2 have the switches of motor X (use: "
+         "LIMIT_MIN, "
+         "LIMIT_MAX and HOME), and its device has 8 at most"},
         {with_inputs({R"(name: "a" motor: "X" channel: 8 use: DOOR)"}),
          "input[0].channel is 8; it must be from 3 to 7"},
         {with_inputs({kStop, R"(name: "a" motor: "X" channel: 3 use: DOOR)"}),
@@ -104,6 +105,48 @@ TEST(Inputs, TheSwitchOfAnAxisMustBoundHowFarItsSearchGoesOn) {
     EXPECT_THAT(error_of(homed_by(slow + " in_place: true", input)), HasSubstr("says that the axis has no switch"));
     EXPECT_THAT(error_of(homed_by(slow, input + " max_overshoot_mm: 0.1")),
                 HasSubstr("homing.search_velocity_mm_s is 0.5, with which the axis may go on for 0.17"));
+}
+
+/// The shortest machine with this input, and with the board if the input is there.
+std::string with_limit(const std::string& input) {
+    const std::string board = input.starts_with("board") ? "board { name: \"IO\" }\n" : "";
+    return std::string(kShortest) + board + "input { name: \"end\" " + input + " }\n";
+}
+
+TEST(Inputs, ALimitSwitchStopsTheMotorOfItsDeviceOrByAMessageTheMachine) {
+    const std::string of_board = R"(board: "IO" channel: 1 use: LIMIT_MAX)";
+    const std::pair<std::string, std::string> mistakes[] = {
+        {of_board,
+         "input end is a limit switch at board IO, which has no motor to stop; name the axis at whose end it "
+         "is, so that the coordinator stops the machine, or wire the switch to the device of the axis's motor"},
+        {of_board + R"( axis: "Q")", "input[0].axis is \"Q\"; it must be the name of an axis of the machine"},
+        {of_board + R"( axis: "X" max_overshoot_mm: 0.001)",
+         "max_overshoot_mm of input end is 0.001, and at its max_velocity_mm_s"},
+        {R"(motor: "X" channel: 4 use: LIMIT_MAX axis: "X")",
+         "input[0].axis is given, but the device of motor X stops axis X by itself, at the next step; remove it"},
+        {R"(motor: "X" channel: 4 use: LIMIT_MAX max_overshoot_mm: 3)", "or for a limit switch the axis"},
+        {R"(motor: "X" channel: 4 use: DOOR axis: "X")", "input[0].axis is given, but the input is no limit switch"},
+        {R"(motor: "X" channel: 1 use: LIMIT_MIN)", "input[0].channel is 1; it must be from 3 to 7"},
+        {R"(motor: "X" channel: 0 use: DOOR)", "input[0].channel is 0; it must be from 3 to 7"}};
+    for (const auto& [text, message] : mistakes) {
+        const std::string found = error_of(with_limit(text));
+        EXPECT_THAT(found, HasSubstr(message));
+        EXPECT_THAT(found, testing::MatchesRegex("m:[0-9]+:[0-9]+: [^\n]*\n?")) << "one error, with its place";
+    }
+    const auto read = parse_machine(with_limit(of_board + R"( axis: "X" max_overshoot_mm: 1000)"));
+    ASSERT_TRUE(read) << to_text("m", read.error());
+    EXPECT_EQ(parse_machine(machine_text(*read))->inputs, read->inputs);
+    EXPECT_EQ(setup_of(*read, motors_of(*read)[1]).limit_max, 0u) << "the board has nothing to stop";
+}
+
+TEST(Inputs, ThatAreLimitSwitchesBelongToTheLimitsOfTheirDevice) {
+    const auto read = parse_machine(with_inputs({R"(name: "low" motor: "X" channel: 0 use: LIMIT_MIN active_low: true)",
+                                                 R"(name: "high" motor: "X" channel: 6 use: LIMIT_MAX)"}));
+    ASSERT_TRUE(read) << to_text("m", read.error());
+    const DeviceSetup setup = setup_of(*read, motors_of(*read)[0]);
+    EXPECT_EQ(setup.limit_min, 1u);
+    EXPECT_EQ(setup.limit_max, 2u | 1u << 6);
+    EXPECT_EQ(setup.inputs_inverted, 1u);
 }
 
 TEST(Inputs, BecomeTheSetupOfTheirDevice) {

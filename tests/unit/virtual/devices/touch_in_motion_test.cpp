@@ -49,7 +49,7 @@ TEST_F(FaultsAtTouches, StopTheMachineOnItsPathInAFaultThatNamesTheInputAndTheLi
     ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
     EXPECT_EQ(fault(), FaultCode::TouchInMotion);
     ASSERT_EQ(vm.state()->fault_axis, kY);
-    EXPECT_EQ(labels_of(vm.machine(), "Y", *use_of_inputs_in(fault())), "input tip of motor Y");
+    EXPECT_EQ(causes_of(vm.machine(), "Y", fault()), "input tip of motor Y");
     EXPECT_EQ(vm.state()->line, 7);
     EXPECT_EQ(vm.state()->outcome, JobOutcome::Failed);
     EXPECT_TRUE(is_on_path());

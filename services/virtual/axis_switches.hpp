@@ -1,4 +1,5 @@
-// The switches of axes that home by touch: each closes where its axis truly is, whichever motors move that axis.
+// The switches of axes, at any device: of those that home by touch, and limit switches at which the coordinator stops
+// the machine. Each closes where its axis truly is, whichever motors move that axis.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +11,9 @@
 
 namespace lockstep {
 
-class HomeSwitches {
+class AxisSwitches {
 public:
-    explicit HomeSwitches(const MachineConfig& machine);
+    explicit AxisSwitches(const MachineConfig& machine);
 
     bool none() const { return switches_.empty(); }
     /// Calls set(input, closed) for each switch that changes while the slides of the motors are at these places, in mm.
@@ -31,6 +32,8 @@ private:
         double axis_steps = 0;  // its place now, and at the begin of the interval
         double begun_at_steps = 0;
     };
+
+    void add(std::size_t input, std::size_t axis, const AxisConfig& config, double at_mm, bool toward_min);
 
     Kinematics kinematics_;
     std::vector<Switch> switches_;

@@ -1,0 +1,29 @@
+#include "core/coordinator/switch_watch.hpp"
+
+#include "core/kinematics/motor_inputs.hpp"
+
+namespace lockstep {
+namespace {
+
+bool is_jogged(const MachineActivity& activity) {
+    const auto* const path = activity.as<activity::OnPath>();
+    return activity.is<activity::Jogging>() || (path != nullptr && path->jog);
+}
+
+}  // namespace
+
+/// A jog may begin at a closed switch, because it leads away from there. Every other motion ends at one.
+void SwitchWatch::look(JobLifecycle& jobs, CoordinatorLoop& loop) {
+    were_closed_.resize(loop.machine.inputs.size());
+    for (std::size_t i = 0; i < loop.machine.inputs.size(); ++i) {
+        const InputConfig& input = loop.machine.inputs[i];
+        if (!input.is_limit_by_message()) { continue; }
+        const bool was_closed = were_closed_[i];
+        were_closed_[i] = loop.is_closed(input);
+        const bool is_away = was_closed && is_jogged(jobs.activity());
+        if (!were_closed_[i] || is_away || !jobs.activity().in_motion()) { continue; }
+        jobs.fail({FaultCode::LimitHit, motor_at_limit(loop.machine, input)}, loop);
+    }
+}
+
+}  // namespace lockstep

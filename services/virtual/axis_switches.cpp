@@ -1,0 +1,52 @@
+#include "services/virtual/axis_switches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lockstep {
+
+AxisSwitches::AxisSwitches(const MachineConfig& machine) : kinematics_(machine) {
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const AxisConfig& axis = machine.axes[i];
+        for (std::size_t n = 0; n < machine.inputs.size(); ++n) {
+            const InputConfig& input = machine.inputs[n];
+            const bool is_home = row_of(axis.homing.way).runs_programs && input.name == axis.homing.input;
+            if (is_home) { add(n, i, axis, axis.homing.switch_position_mm, axis.homing.toward_min); }
+            if (!input.is_limit_by_message() || input.axis != axis.name) { continue; }
+            const bool at_min = input.use == InputUse::LimitMin;
+            const double margin = axis.plant.travel_margin_mm;
+            add(n, i, axis, at_min ? axis.position_min_mm - margin : axis.position_max_mm + margin, at_min);
+        }
+    }
+}
+
+void AxisSwitches::add(std::size_t input, std::size_t axis, const AxisConfig& config, double at_mm, bool toward_min) {
+    switches_.push_back(
+        {.input = input, .axis = axis, .at_steps = at_mm * config.steps_per_mm, .toward_min = toward_min});
+}
+
+void AxisSwitches::follow(const std::vector<double>& motors_mm, const std::function<void(std::size_t, bool)>& set) {
+    std::vector<Position> motors;
+    for (std::size_t m = 0; m < motors_mm.size(); ++m) {
+        motors.push_back(Position::steps(to_steps(kinematics_.motors()[m], motors_mm[m])));
+    }
+    for (Switch& one : switches_) {
+        const double at = one.axis_steps = kinematics_.axis_steps(one.axis, motors);
+        const bool is_closed = one.toward_min ? at <= one.at_steps : at >= one.at_steps;
+        if (is_closed != one.is_closed) { set(one.input, is_closed); }
+        one.is_closed = is_closed;
+    }
+}
+
+bool AxisSwitches::may_change_next() {
+    constexpr double kLeast_steps = 2;
+    bool may_change = false;
+    for (Switch& one : switches_) {
+        const double way = std::abs(one.axis_steps - std::exchange(one.begun_at_steps, one.axis_steps));
+        may_change |= std::abs(one.axis_steps - one.at_steps) <= 3 * way + kLeast_steps;
+    }
+    return may_change;
+}
+
+}  // namespace lockstep
