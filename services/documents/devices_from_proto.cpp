@@ -86,15 +86,6 @@ double usual_silence_ms(const ProtocolTiming& timing) {
     return std::max(MachineConfig{}.output_silence_ms, 5 * stall_ms);
 }
 
-/// "EMERGENCY_STOP, DOOR or HOME"
-std::string choice_of(const google::protobuf::EnumDescriptor& values) {
-    std::string text = values.value(0)->name();
-    for (int i = 1; i < values.value_count(); ++i) {
-        text += (i + 1 == values.value_count() ? " or " : ", ") + values.value(i)->name();
-    }
-    return text;
-}
-
 InputConfig read_input(const proto::Input& message, const std::string& place, ProtoReader reader) {
     InputConfig input;
     reader.require(message.has_name(), message.name(), input.name, place + ".name");
