@@ -98,8 +98,6 @@ private:
             object("the touch is reported " + std::to_string(off.value) + " ticks off; the clocks are within " +
                    std::to_string(most.value));
         }
-    }
-
         check_input(pressed + most);
     }
 
@@ -111,6 +109,8 @@ private:
         if (!is_first) {
             object("input " + std::to_string(*probe_.result.input) + " is reported, but it did not touch first");
         }
+    }
+
     /// The probe touched while the machine still moved afterwards, and no fault explains why that was missed.
     void check_unnoticed() {
         if (probe_.touches.empty() || !probe_.is_undisturbed) { return; }
