@@ -50,7 +50,9 @@ HomingStep Homing::next(const LocalEnd& end) {
             if (end.home_closed) { return search(HomingStage::Release); }
             stage_ = HomingStage::Latch;
             const double speed = motor_.homing.latch_velocity_mm_s;
-            return {.move = LocalMove{toward_switch(2 * motor_.homing.pulloff_mm), speed, Trigger::HomeCloses}};
+            const std::int64_t way = toward_switch(2 * motor_.homing.pulloff_mm);
+            const std::int64_t play = way > 0 ? motor_.backlash.steps : -motor_.backlash.steps;
+            return {.move = LocalMove{way + play, speed, Trigger::HomeCloses}};
         }
         case HomingStage::Latch: return end.by_trigger ? touch(end) : miss(end);
         case HomingStage::Park:

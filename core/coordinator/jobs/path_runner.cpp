@@ -134,6 +134,7 @@ void PathRunner::begin_epoch(PathTask& task, const PathPlace& place, MotorPositi
     const bool is_aside = kind == JobKind::Jog || kind == JobKind::Return || kind == JobKind::Home;
     if (is_aside) { switched.devices.pulses = {}; }
     const TouchInputs touch = task.probe ? probing_.awaited() : TouchInputs{};
+    probing_.begin_epoch(at, loop);
     runner_.begin(epoch_after(runner_.epoch(), loop), place, at, overrides_, switched, touch);
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/check.hpp"
 #include "core/kinematics/axis_states.hpp"
+#include "core/kinematics/backlash.hpp"
 #include "core/kinematics/motor_inputs.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/protocol/rules.hpp"
@@ -15,12 +16,6 @@ namespace {
 MotorPositions positions_of(const LoopView& loop) {
     MotorPositions at;
     for (std::size_t i = 0; i < loop.axes.size(); ++i) { at.append(slide_of(*loop.axes.state(i))); }
-    return at;
-}
-
-/// The slides of motors that were at `at` and come to rest in the same direction, so that their plays do not change.
-MotorPositions slides_at(MotorPositions at, const LoopView& loop) {
-    for (std::size_t i = 0; i < at.size(); ++i) { at[i] = at[i] - Displacement::steps(loop.axes.state(i)->play_steps); }
     return at;
 }
 
@@ -63,6 +58,17 @@ std::optional<Probed> Probing::end_at_begin(const PathTask& task, const TouchInp
     note(task, touch, positions_of(loop), loop);
     if (!task.probe->must_touch) { return Probed{}; }
     return Probed{touch ? FaultCode::ProbeTouchedEarly : FaultCode::ProbeNotTouched};
+}
+
+/// On a straight move each motor goes on in one direction, also while it takes up its backlash.
+MotorPositions Probing::slides_at(MotorPositions at, const LoopView& loop) const {
+    for (std::size_t m = 0; m < plays_.size(); ++m) {
+        Play play(loop.kinematics.motors()[m].backlash);
+        play.set(plays_[m]);
+        play.follow(at[m].count() - begun_at_[m].count());
+        at[m] = at[m] - Displacement::steps(play.steps());
+    }
+    return at;
 }
 
 bool Probing::may_touch_yet(const PathTask& task, const EpochEnd& end, const EpochRunner& runner,

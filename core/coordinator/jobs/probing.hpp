@@ -19,6 +19,8 @@ public:
     /// begin.
     const TouchInputs& awaited() const { return awaited_; }
 
+    /// An epoch begins, with the motors at these places.
+    void begin_epoch(const MotorPositions& at, const LoopView& loop) { begun_at_ = at, plays_ = loop.plays(); }
     /// An epoch with a touch has come to rest as `end` says, but a touch before that, or one before the touch that is
     /// known, may still become known: an input follows its pin with a delay, and the states of its axis come later.
     bool may_touch_yet(const PathTask& task, const EpochEnd& end, const EpochRunner& runner, const LoopView& loop);
@@ -32,11 +34,14 @@ public:
     const std::optional<ProbeResult>& result() const { return result_; }
 
 private:
+    MotorPositions slides_at(MotorPositions at, const LoopView& loop) const;
     bool lacks_states(const Probe& probe, const EpochRunner& runner, const LoopView& loop) const;
     void note(const PathTask& task, const std::optional<FirstTouch>& touch, const MotorPositions& at,
               const LoopView& loop);
 
     TouchInputs awaited_;
+    MotorPositions begun_at_;            // of the newest epoch
+    AxisCounts plays_;                   // there; none if no motor has backlash
     std::optional<ProbeResult> result_;  // of the newest probing move
     std::optional<Slot> rested_;         // since when the epoch in progress rests and waits
 };

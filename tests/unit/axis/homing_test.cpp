@@ -48,6 +48,21 @@ TEST_F(HomingSequence, TwoTouchesThatAgreeSetTheZeroAtTheSecond) {
     EXPECT_TRUE(homing.next(stands_at(-201)).done);
 }
 
+/// Behind a release the slide is a whole pull-off away, and the motor turns back through its play.
+TEST_F(HomingSequence, TheSlowTouchReachesTheSwitchThroughTheWholePlay) {
+    for (const bool toward_min : {true, false}) {
+        MotorConfig loose = axis();
+        loose.homing.toward_min = toward_min;
+        loose.backlash = {.steps = 99, .speed_mm_s = 10, .toward_min = toward_min};
+        Homing of_loose(loose);
+        of_loose.begin(false, 0);
+        of_loose.next(closes_at(-700));
+        const HomingStep latch = of_loose.next(stands_at(-600));
+        EXPECT_EQ(of_loose.stage(), HomingStage::Latch);
+        EXPECT_EQ(latch.move->steps, toward_min ? -299 : 299);
+    }
+}
+
 TEST_F(HomingSequence, TouchesFurtherApartThanTheToleranceAreTriedAgain) {
     homing.begin(false, 0);
     touch(-700);
