@@ -1,13 +1,11 @@
+#include <numeric>
+
 #include "tests/simulation/simtest/check/checks.hpp"
 
 namespace lockstep::simtest {
 namespace {
 
-std::int64_t sum(std::span<const StepEdge> steps) {
-    std::int64_t count = 0;
-    for (const StepEdge& step : steps) { count += step.direction; }
-    return count;
-}
+std::int64_t sum(const std::vector<std::int64_t>& ways) { return std::reduce(ways.begin(), ways.end()); }
 
 void check_order(const Recording& recording, Violations& violations) {
     for (std::size_t i = 0; i < recording.motors.size(); ++i) {
@@ -23,7 +21,7 @@ void check_order(const Recording& recording, Violations& violations) {
 
 void check_sum(const Recording& recording, const JobRecord& job, std::size_t i, Violations& violations) {
     if (!job.is_whole()) { return; }
-    const std::int64_t end = job.course.from[i] + sum(recording.steps_of(job, i));
+    const std::int64_t end = job.course.from[i] + sum(recording.slide_ways(job, i));
     if (end == job.course.to[i]) { return; }
     violations.push_back(
         {"exact",

@@ -67,11 +67,12 @@ public:
           violations_(violations) {
         lines_ = lines();
         const Joints joints(job.course, axis);
-        for (std::size_t n = 0; at_ != nullptr && n < steps_.size(); ++n) {
-            joints_before_.push_back(joints.before((*at_)[n].first));
-            joints_up_to_.push_back(joints.up_to((*at_)[n].last));
+        for (std::size_t n = 0; n < steps_.size(); ++n) {
+            joints_before_.push_back(at_ == nullptr ? 0 : joints.before((*at_)[n].first));
+            joints_up_to_.push_back(at_ == nullptr ? 0 : joints.up_to((*at_)[n].last));
         }
-        joints_up_to_.push_back(joints.up_to(end_.last));
+        joints_up_to_.push_back(at_ == nullptr ? 0 : joints.up_to(end_.last));
+        add_take_ups(recording, job);
         for (const StepEdge& step : steps_) { counts_.push_back(counts_.back() + step.direction); }
     }
 
@@ -85,6 +86,31 @@ public:
     }
 
 private:
+    /// Where a motor takes up its backlash, all others stop, and it begins and ends at once. That is another joint.
+    void add_take_ups(const Recording& recording, const JobRecord& job) {
+        std::vector<Tick> first, last;
+        for (std::size_t m = 0; m < recording.motors.size(); ++m) {
+            if (recording.motors[m].play == 0) { continue; }
+            const auto steps = recording.steps_of(job, m);
+            const auto ways = recording.slide_ways(job, m);
+            for (std::size_t n = 0; n < steps.size(); ++n) {
+                if (ways[n] != 0) { continue; }
+                const Tick at = recording.motors[m].truth(steps[n]);
+                const Ticks error = recording.motors[m].bound_at(at) + recording.motors[axis_].bound_at(at);
+                first.push_back(at - error);
+                last.push_back(at + error);
+            }
+        }
+        std::ranges::sort(first);
+        std::ranges::sort(last);
+        for (std::size_t n = 0; n < steps_.size(); ++n) {
+            const Tick at = recording.motors[axis_].truth(steps_[n]);
+            joints_before_[n] += static_cast<std::size_t>(std::ranges::lower_bound(last, at) - last.begin());
+            joints_up_to_[n] += static_cast<std::size_t>(std::ranges::upper_bound(first, at) - first.begin());
+        }
+        joints_up_to_.back() += first.size();
+    }
+
     /// Whether the axis may have rested before step n. After a pause it rests at least as long.
     bool may_rest_before(std::size_t n) const {
         const bool turns = at_ == nullptr && steps_[n].direction != steps_[n - 1].direction;
@@ -93,15 +119,11 @@ private:
 
     /// The number of joints between two steps. The index after the last step is the end of the job.
     std::size_t joints(std::size_t from, std::size_t to) const {
-        if (at_ == nullptr) { return 0; }
         return joints_up_to_[to] - std::min(joints_before_[from], joints_up_to_[to]);
     }
 
     /// The joints between a rest in this gap and the step beside it. The start and the end of a motion are not joints.
-    std::size_t joints_beside_rest(std::size_t gap) const {
-        if (at_ == nullptr) { return 0; }
-        return gap == 0 ? joints_up_to_[0] : joints(gap - 1, gap);
-    }
+    std::size_t joints_beside_rest(std::size_t gap) const { return gap == 0 ? joints_up_to_[0] : joints(gap - 1, gap); }
 
     double time(std::size_t from, std::size_t to) const {
         return static_cast<double>((steps_[to].tick - steps_[from].tick).value);

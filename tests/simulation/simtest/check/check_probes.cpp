@@ -46,10 +46,12 @@ private:
         const Ticks error = error_of(m) + error_of_touches();
         std::int64_t count = probe_.from[m];
         std::int64_t least = count, most = count;
-        for (const StepEdge& step : recording_.steps_of(job_, m)) {
-            const Tick at = recording_.motors[m].truth(step);
+        const auto steps = recording_.steps_of(job_, m);
+        const auto ways = recording_.slide_ways(job_, m);
+        for (std::size_t n = 0; n < steps.size(); ++n) {
+            const Tick at = recording_.motors[m].truth(steps[n]);
             if (at > probe_.result.tick + error) { break; }
-            count += step.direction;
+            count += ways[n];
             const bool is_before = at <= probe_.result.tick - error;
             least = is_before ? count : std::min(least, count);
             most = is_before ? count : std::max(most, count);

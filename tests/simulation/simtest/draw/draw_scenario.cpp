@@ -10,6 +10,7 @@
 #include "tests/simulation/simtest/draw/draw_program.hpp"
 #include "tests/simulation/simtest/draw/draw_stream.hpp"
 #include "tests/simulation/simtest/draw/draw_takeover.hpp"
+#include "tests/simulation/simtest/draw/machine/draw_backlash.hpp"
 #include "tests/simulation/simtest/draw/machine/draw_delta.hpp"
 #include "tests/simulation/simtest/draw/machine/draw_late_devices.hpp"
 #include "tests/simulation/simtest/draw/machine/draw_motors.hpp"
@@ -279,6 +280,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
         scenario.machine.boards.push_back({.name = "IO", .host = "", .device = {}});
     }
     if (kind.touches && !kind.deltas) { scenario.machine = with_touches(seed, std::move(scenario.machine)); }
+    if (kind.backlash && !kind.screws) { scenario.machine = with_backlash(seed, std::move(scenario.machine)); }
     scenario.network = draw_network(draw, faults, scenario.machine.slot_ticks());
     if (faults.clock) {
         give_clocks(draw, scenario);

@@ -74,6 +74,7 @@ struct MachineKind {
     bool motors = false;              // axes have several motors, or share them (draw_motors.hpp)
     bool deltas = false;              // draw_delta.hpp
     bool screws = false;              // motors correct errors of screws (draw_screws.hpp); not of deltas
+    bool backlash = false;            // motors have a play (draw_backlash.hpp); not with screws or deltas
     bool touches = false;             // axes home by inputs (draw_touches.hpp); not of deltas
     bool jogs = false;                // axes are jogged between programs (draw_jogs.hpp)
     bool inputs = false;              // with an emergency stop and a door (draw_inputs.hpp)
@@ -99,6 +100,7 @@ inline constexpr auto kMachineFlags = std::to_array<MachineKind::Flag>(
       "machines with several motors on an axis, belts that move two axes, gears or skewed guides"},
      {"--deltas", &MachineKind::deltas, "machines whose first three axes are those of a delta"},
      {"--screws", &MachineKind::screws, "machines whose motors correct errors of their screws"},
+     {"--backlash", &MachineKind::backlash, "machines whose motors have backlash, which they take up where they turn"},
      {"--touches", &MachineKind::touches, "machines with axes that home by the touch of an input, at any device"},
      {"--inputs", &MachineKind::inputs, "machines with an emergency stop and a door at inputs of devices"},
      {"--probes", &MachineKind::probes,

@@ -28,11 +28,13 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
     // An axis does not know yet what its device has done since the last reading, if the device answers late.
     const bool is_late = recording_.motors[axis].lateness > Ticks{};
     if (is_late && state.tick - state.clock_error <= moved_[axis]) { return; }
+    // In motion an axis takes its play from the pieces that its device has run, and for one direction since then.
+    if (recording_.motors[axis].play > 0 && !state.at_rest) { return; }
     // The switch closes within a step of the reported position, and whole steps are off by at most half a step.
     // A motor that moves several axes adds up what the switches of these axes are off.
     const double kHomedWithin = is_by_touch ? 4 : 2;
     const double slide = vm_.device(axis).plant().position_mm() * motors_[axis].steps_per_mm;
-    if (state.homed && std::abs(slide - zero_[axis] - static_cast<double>(claimed)) > kHomedWithin) {
+    if (state.homed && std::abs(slide - zero_[axis] - static_cast<double>(claimed - state.play_steps)) > kHomedWithin) {
         object(axis, now,
                "it reports that it is homed at step " + std::to_string(claimed) + ", its slide is at step " +
                    std::to_string(slide));

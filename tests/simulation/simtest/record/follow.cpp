@@ -107,10 +107,10 @@ public:
         for (std::size_t i = 0; i < recording.motors.size(); ++i) {
             Axis axis{
                 .index = i, .steps = recording.steps_of(job, i), .until = until[i], .counts = {job.course.from[i]}};
-            for (const StepEdge& step : axis.steps) {
-                axis.counts.push_back(axis.counts.back() + step.direction);
-                axis.times.push_back(times_of(i, step));
+            for (const std::int64_t way : recording.slide_ways(job, i)) {
+                axis.counts.push_back(axis.counts.back() + way);
             }
+            for (const StepEdge& step : axis.steps) { axis.times.push_back(times_of(i, step)); }
             look_ahead(axis);
             axes_.push_back(std::move(axis));
             following_.at_step.emplace_back(axes_.back().steps.size(), Reached{0, job.course.end()});
@@ -134,7 +134,7 @@ private:
         std::size_t index = 0;
         std::span<const StepEdge> steps;
         Tick until;
-        std::vector<std::int64_t> counts;  // after each number of steps
+        std::vector<std::int64_t> counts;  // of its slide, after each number of steps
         std::vector<StepTimes> times{};
         std::size_t made = 0;      // steps certainly made
         std::size_t may_have = 0;  // steps possibly made
@@ -241,7 +241,7 @@ bool leads_to_rest(const Recording& recording, JobRecord& job) {
     std::vector<double> rest;
     for (std::size_t i = 0; i < recording.motors.size(); ++i) {
         std::int64_t count = job.course.from[i];
-        for (const StepEdge& step : recording.steps_of(job, i)) { count += step.direction; }
+        for (const std::int64_t way : recording.slide_ways(job, i)) { count += way; }
         rest.push_back(static_cast<double>(count));
     }
     const auto is_its_end = [&rest](const Stretch& stretch) {

@@ -160,11 +160,36 @@ Course with_boards(Course axes, std::size_t motors) {
     return axes;
 }
 
+/// How often a slide turns on the course, at most.
+std::size_t turns_of(const Course& course, std::size_t motor) {
+    std::size_t turns = 1;
+    double last = 0;
+    for (std::size_t k = 0; k < course.stretches.size(); ++k) {
+        const double way = course.at(k + 1, motor) - course.at(k, motor);
+        if (way * last < 0) { ++turns; }
+        if (way != 0) { last = way; }
+    }
+    return turns;
+}
+
+/// The path waits where motors take up their backlash. A slide that goes back by a fifth of a step may not follow yet.
+void add_backlash(const MotorShares& map, Course& course) {
+    constexpr double kSlack_steps = 0.2;
+    if (!map.any_has_play()) { return; }
+    for (Stretch& stretch : course.stretches) { stretch.within += kSlack_steps; }
+    for (std::size_t m = 0; m < map.motors(); ++m) {
+        const double once_s = static_cast<double>(map.play(m)) / map.steps_per_mm(m) / map.limits(m).start;
+        course.seconds += 2 * once_s * static_cast<double>(turns_of(course, m));
+    }
+}
+
 }  // namespace
 
 Course course_of_motors(Course axes, const MotorShares& map, const MachineConfig& machine, const Counts& from) {
-    if (map.is_direct()) { return with_boards(std::move(axes), map.motors()); }
-    return CourseMap(map, machine).of(std::move(axes), from);
+    Course course = map.is_direct() ? with_boards(std::move(axes), map.motors())
+                                    : CourseMap(map, machine).of(std::move(axes), from);
+    add_backlash(map, course);
+    return course;
 }
 
 }  // namespace lockstep::simtest

@@ -83,6 +83,16 @@ ScrewByBezier screw_of(const AxisConfig& axis, std::size_t number, const MotorBl
     return ScrewByBezier(errors);
 }
 
+/// Whole steps. The play of a motor that moves one axis only is given in mm of the axis.
+std::int64_t play_of(const AxisConfig& axis, std::size_t number, const MotorBlock* block,
+                     const std::vector<double>& shares, double steps_per_mm) {
+    const auto& backlash = block != nullptr && block->backlash ? block->backlash : axis.backlash;
+    if (!backlash) { return 0; }
+    const auto moved = std::ranges::count_if(shares, [](double share) { return share != 0; });
+    const double share = moved == 1 && shares[number] != 0 ? std::abs(shares[number]) : 1;
+    return std::llround(backlash->mm * share * steps_per_mm);
+}
+
 }  // namespace
 
 MotorShares::MotorShares(const MachineConfig& machine)
@@ -103,6 +113,7 @@ void MotorShares::add_board() {
     towers_.emplace_back();
     shares_.emplace_back(axis_steps_per_mm_.size(), 0.0);
     steps_per_mm_.push_back(1);
+    plays_.push_back(0);
     screws_.emplace_back();
     limits_.push_back({1, 1, 1, 1});
 }
@@ -137,6 +148,7 @@ void MotorShares::add(const MachineConfig& machine, std::size_t axis, const Moto
     const double of_axis = machine.axes[axis].steps_per_mm;
     steps_per_mm_.push_back(block == nullptr ? of_axis : block->steps_per_mm.value_or(of_axis));
     screws_.push_back(screw_of(machine.axes[axis], axis, block, shares, steps_per_mm_.back()));
+    plays_.push_back(play_of(machine.axes[axis], axis, block, shares, steps_per_mm_.back()));
     for (std::size_t i = 0; i < shares.size(); ++i) {
         shares[i] *= steps_per_mm_.back() / machine.axes[i].steps_per_mm;
     }
@@ -196,7 +208,7 @@ bool MotorShares::is_own(std::size_t axis) const {
         if (shares_[m][axis] == 0) { continue; }
         const double share_mm = shares_[m][axis] * axis_steps_per_mm_[axis] / steps_per_mm_[m];
         const bool follows = shares_[m][axis] == 1 || (!screws_[m].is_exact() && std::abs(share_mm - 1) < 1e-9);
-        if (!moves_only(m, axis) || !follows) { return false; }
+        if (!moves_only(m, axis) || !follows || plays_[m] > 0) { return false; }
         ++movers;
     }
     return movers == 1;

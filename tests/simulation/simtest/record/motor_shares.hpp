@@ -31,7 +31,8 @@ public:
     bool is_direct() const { return is_direct_; }
     /// A motor follows curves while the axes move in lines.
     bool is_curved(std::size_t motor) const { return towers_[motor] || !screws_[motor].is_exact(); }
-    /// An axis is moved by one motor, which moves no other axis and has the axis's steps, or corrects its screw.
+    /// An axis is moved by one motor without play, which moves no other axis and has the axis's steps, or corrects its
+    /// screw.
     bool is_own(std::size_t axis) const;
     bool any_is_curved() const {
         return !carriages_.none() ||
@@ -54,6 +55,11 @@ public:
     /// For a motor that is curved, by how many steps its way differs from a line at most, while the axes move in one
     /// between these places.
     double bulge(std::size_t motor, const Places& from, const Places& to) const;
+    /// The steps that the motor needs to turn back, because of its backlash.
+    std::int64_t play(std::size_t motor) const { return plays_[motor]; }
+    bool any_has_play() const {
+        return std::ranges::any_of(plays_, [](std::int64_t play) { return play > 0; });
+    }
     double steps_per_mm(std::size_t motor) const { return steps_per_mm_[motor]; }
     const MotorLimits& limits(std::size_t motor) const { return limits_[motor]; }
     /// How much longer a motion may last than the axes' limits need, because motors have lower ones.
@@ -73,6 +79,7 @@ private:
     std::vector<std::vector<double>> shares_;
     std::vector<double> steps_per_mm_;
     std::vector<ScrewByBezier> screws_;  // in steps
+    std::vector<std::int64_t> plays_;
     std::vector<MotorLimits> limits_;
     double slower_ = 1;
     bool is_direct_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/simulation/simtest/record/explain.hpp"
+#include "tests/simulation/simtest/record/slide.hpp"
 
 namespace lockstep::simtest {
 namespace {
@@ -37,6 +38,15 @@ Track track_of(const ExecutedTrack& executed, FrameNumber armed) {
 }
 
 }  // namespace
+
+std::vector<std::int64_t> Recording::slide_ways(const JobRecord& job, std::size_t motor) const {
+    Slide slide(motors[motor].play);
+    const auto all = std::span(motors[motor].steps);
+    for (const StepEdge& step : all.first(job.first_step[motor])) { (void)slide.take(step.direction); }
+    std::vector<std::int64_t> ways;
+    for (const StepEdge& step : steps_of(job, motor)) { ways.push_back(slide.take(step.direction)); }
+    return ways;
+}
 
 std::uint64_t Recording::steps() const {
     std::uint64_t sum = 0;

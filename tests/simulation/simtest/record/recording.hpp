@@ -64,6 +64,7 @@ struct MotorRecord {
     Tick power_up;
     VirtualClock clock{};           // of the device: steps and tracks are in its time
     Ticks lateness{};               // until the device answers, at most
+    std::int64_t play = 0;          // between the motor and its slide, in steps
     std::vector<StepEdge> steps{};  // from power-up on
     std::vector<Track> tracks{};
     std::vector<ChannelEvent> channels{};
@@ -187,6 +188,8 @@ struct Recording {
     std::span<const StepEdge> steps_of(const JobRecord& job, std::size_t axis) const {
         return std::span(motors[axis].steps).subspan(job.first_step[axis], job.end_step[axis] - job.first_step[axis]);
     }
+    /// How far the slide went with each of these steps.
+    std::vector<std::int64_t> slide_ways(const JobRecord& job, std::size_t motor) const;
     std::uint64_t steps() const;
     /// Over every step: axis, tick, direction.
     std::uint64_t hash() const;

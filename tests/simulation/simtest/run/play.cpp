@@ -41,7 +41,7 @@ void check_places(Bench& bench, const Counts& at) {
         if (encoder != pulses && bench.recording().emergencies.empty() && !moved) {
             bench.object("lost", name + " has moved " + std::to_string(encoder) + " steps after " +
                                      std::to_string(pulses) + " pulses");
-        } else if (!state || state->position.count() != at[i] || !state->homed || !state->at_rest) {
+        } else if (!state || state->position.count() - state->play_steps != at[i] || !state->homed || !state->at_rest) {
             bench.object("place", name + " does not report that it rests homed at step " + std::to_string(at[i]));
         }
     }
@@ -91,6 +91,8 @@ Played play(const Scenario& scenario, std::span<VirtualObserver* const> also) {
         played.recording.motors[i].clock = scenario.clocks[i].device;
         played.recording.motors[i].lateness = scenario.lateness(i);
     }
+    const MotorShares map(scenario.machine);
+    for (std::size_t m = 0; m < map.motors(); ++m) { played.recording.motors[m].play = map.play(m); }
     {
         Bench bench(scenario, played);
         for (VirtualObserver* const observer : also) { bench.vm().observe(*observer); }

@@ -114,7 +114,9 @@ AxisSet homed_by_touch(const Bench& bench) {
 /// true place of the slide.
 std::int64_t place_after_homing(const Bench& bench, std::size_t motor, JobOutcome outcome) {
     const AxisState& state = bench.watch().motors()[motor];
-    if (outcome != JobOutcome::Done && state.homed && state.at_rest) { return state.position.count(); }
+    if (outcome != JobOutcome::Done && state.homed && state.at_rest) {
+        return state.position.count() - state.play_steps;
+    }
     const MotorConfig& config = bench.kinematics().motors()[motor];
     const bool is_by_touch = has_axis(homed_by_touch(bench), motor);
     if (!bench.map().is_curved(motor) && !is_by_touch) { return nearest_step(config, config.homing.park_mm); }
@@ -463,9 +465,7 @@ void JobPlayer::record() {
     job_.end_step = bench_.steps_made();
     job_.outcome = begun_ ? bench_.watch().outcome().value_or(JobOutcome::Failed) : JobOutcome::Failed;
     for (std::size_t i = 0; i < at_.size(); ++i) {
-        for (std::size_t n = job_.first_step[i]; n < job_.end_step[i]; ++n) {
-            at_[i] += bench_.recording().motors[i].steps[n].direction;
-        }
+        for (const std::int64_t way : bench_.recording().slide_ways(job_, i)) { at_[i] += way; }
     }
     record_probe();
     end_record(bench_, job_);

@@ -80,7 +80,8 @@ bool JogPlayer::has_astray_motors() const {
         for (std::size_t m = 0; m < bench_.map().motors(); ++m) {
             if (!bench_.map().moves_only(m, i)) { continue; }
             const double share = bench_.map().share(m, i);
-            const auto count = static_cast<double>(bench_.watch().motors()[m].position.count());
+            const AxisState& state = bench_.watch().motors()[m];
+            const auto count = static_cast<double>(state.position.count() - state.play_steps);
             const double at = bench_.map().without_screw(m, count) / share;
             least = std::max(least, at - 0.5 / std::abs(share));
             most = std::min(most, at + 0.5 / std::abs(share));
@@ -184,9 +185,7 @@ void JogPlayer::record() {
     job_.end_step = bench_.steps_made();
     job_.outcome = JobOutcome::Stopped;
     for (std::size_t i = 0; i < at_.size(); ++i) {
-        for (std::size_t n = job_.first_step[i]; n < job_.end_step[i]; ++n) {
-            at_[i] += bench_.recording().motors[i].steps[n].direction;
-        }
+        for (const std::int64_t way : bench_.recording().slide_ways(job_, i)) { at_[i] += way; }
     }
     // After late renewals, and for each further line, the axes begin on whole steps of the motors beside the line.
     for (Stretch& stretch : job_.course.stretches) { stretch.within += 1; }
@@ -211,7 +210,7 @@ void JogPlayer::check_place() {
     }
     for (std::size_t m = 0; m < at_.size(); ++m) {
         const AxisState& state = bench_.watch().motors()[m];
-        if (state.homed && state.at_rest && state.position.count() == at_[m]) { continue; }
+        if (state.homed && state.at_rest && state.position.count() - state.play_steps == at_[m]) { continue; }
         bench_.object("jog", bench_.kinematics().motors()[m].name + " does not report that it rests at step " +
                                  std::to_string(at_[m]));
     }

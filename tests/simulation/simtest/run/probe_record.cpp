@@ -23,7 +23,7 @@ double within_steps(const Bench& bench, std::size_t motor) {
 
 /// The motor's count where the job began.
 std::int64_t count_before(const Recording& recording, const JobRecord& job, std::size_t motor, std::int64_t after) {
-    for (const StepEdge& step : recording.steps_of(job, motor)) { after -= step.direction; }
+    for (const std::int64_t way : recording.slide_ways(job, motor)) { after -= way; }
     return after;
 }
 

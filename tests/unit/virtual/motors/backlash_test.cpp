@@ -29,7 +29,8 @@ MachineConfig loose_machine() {
 class Loose : public Rig {
 protected:
     explicit Loose(const MachineConfig& machine = loose_machine())
-        : Rig({.machine = machine, .keeps_positions = true}), kinematics(machine) {}
+        : Loose(VirtualOptions{.machine = machine, .keeps_positions = true}) {}
+    explicit Loose(const VirtualOptions& options) : Rig(options), kinematics(options.machine) {}
 
     /// The place that people see.
     double shown_mm(std::size_t axis) const {
@@ -193,6 +194,45 @@ TEST_F(Loose, RefusesAMoveOfItsMotorsAlone) {
     const Reply reply = ask(CommandKind::MoveOwn, 0, 70);
     EXPECT_EQ(reply.status, ReplyStatus::Refused);
     EXPECT_NE(reply.text.find("axis X moves only on a path"), std::string::npos) << reply.text;
+}
+
+/// X takes up its play in 0.6 s, and another coordinator goes on with a job.
+class LooseWithStandby : public Loose {
+protected:
+    LooseWithStandby() : Loose(options()) {}
+
+    static VirtualOptions options() {
+        VirtualOptions options{.machine = loose_machine()};
+        options.machine.axes[kX].backlash->speed_mm_s = 0.2;
+        options.on_takeover = OnTakeover::Continue;
+        options.coordinators = 2;
+        return options;
+    }
+    bool is_taking_up() const {
+        const std::int64_t play = vm.axis_states()[kX]->play_steps;
+        return play > 1 && play < 11;
+    }
+};
+
+TEST_F(LooseWithStandby, GoesOnWhenItsOwnerEndsInTheMiddleOfATakeUp) {
+    home();
+    go({{20, 50}});
+    for (const double x : {10.0, 30.0}) {  // X turns at both ends of its play
+        ASSERT_EQ(run(program_of({{x, 60}, {20, 70}, {x, 50}}, 20, at_)).status, ReplyStatus::Accepted);
+        ASSERT_TRUE(vm.advance_until([&] { return is_taking_up(); }, Ticks{5'000'000}));
+        const std::size_t owner = vm.owner().value();
+        const Term term = vm.state()->term;
+        vm.schedule({.kind = VirtualFault::Kind::Crash, .process = owner, .at = vm.now(), .lasts = Ticks{300'000}});
+        const auto rests = [&] { return vm.axis_states()[kX]->at_rest && vm.axis_states()[kY]->at_rest; };
+        ASSERT_TRUE(vm.advance_until(rests, Ticks{1'000'000}));
+        EXPECT_TRUE(is_taking_up()) << "X rests at " << vm.axis_states()[kX]->play_steps << " of 12 steps";
+        expect_shown_truly();
+        const auto is_done = [&] { return vm.state()->term > term && vm.state()->phase == MachinePhase::Idle; };
+        ASSERT_TRUE(vm.advance_until(is_done, Ticks{30'000'000})) << describe();
+        EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
+        expect_at(x, 50);
+        wait(2);
+    }
 }
 
 MachineConfig loose_gantry() {
