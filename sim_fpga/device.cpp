@@ -73,7 +73,7 @@ void SimulatedDevice::advance(Tick until) {
     if (phase_ != Phase::AtRest && has_lost_ticks_) { finish(kStatusLostTicks); }
     tend();
     for (Tick next = decide(until); engine_.now() < until; next = decide(until)) {
-        const Tick due = std::min(next, channels_.next().value_or(next));
+        const Tick due = std::min({next, channels_.next().value_or(next), plant_.wiring().next(now()).value_or(next)});
         if (engine_.idle()) {
             engine_.wait(due);
         } else {
@@ -226,7 +226,10 @@ bool SimulatedDevice::on_step(StepEdge step) {
 /// Looks at the inputs and does what is due after this tick.
 void SimulatedDevice::tend() {
     pins_ = plant_.pins();
-    channels_.tend(pins_, place());
+    channels_.tend(plant_.wiring().look(pins_, now()), place());
+    const OutputUnit& outputs = channels_.outputs();
+    plant_.wiring().follow(
+        outputs.digital(), [&](std::size_t channel) { return outputs.analog(channel, now()); }, now());
     if (const std::uint64_t reason = reason_to_cease(); reason != 0) {
         if ((reason & kStatusStoppedByTrigger) != 0) { trigger_count_ = count_; }
         finish(reason);

@@ -101,7 +101,7 @@ private:
     std::uint64_t run_bits_ = 0;  // the bits of STATUS that a new run clears
     std::int64_t count_ = 0;
     std::int64_t trigger_count_ = 0;
-    std::uint32_t pins_ = 0;   // as the channels saw them last
+    std::uint32_t pins_ = 0;   // of the plant, as they were at the last look
     int stepped_ = 0;          // the direction of a step after which pulses paused; 0: none
     bool into_limit_ = false;  // a pulse was suppressed at a limit switch
 

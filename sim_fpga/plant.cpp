@@ -93,6 +93,22 @@ void put_home_switch(Plant& plant, const InputConfig& input, const MachineConfig
                     input.active_low);
 }
 
+Ticks ticks_of(double seconds, const MachineConfig& machine) {
+    return Ticks{std::llround(seconds * machine.ticks_per_second())};
+}
+
+void connect_spindles(Wiring& wiring, const MachineConfig& machine, const MotorConfig& motor) {
+    for (const OutputConfig& output : outputs_of(machine.outputs, motor.name)) {
+        const auto input = std::ranges::find(machine.inputs, output.at_speed, &InputConfig::name);
+        if (output.simulated_spin_up_s <= 0 || input == machine.inputs.end()) { continue; }
+        wiring.connect({.is_analog = output.is_analog(),
+                        .output = static_cast<unsigned>(output.channel),
+                        .spin_up = ticks_of(output.simulated_spin_up_s, machine),
+                        .input = static_cast<unsigned>(input->channel),
+                        .active_low = input->active_low});
+    }
+}
+
 PlantContact limit_of(const InputConfig& input) {
     return input.use == InputUse::LimitMin ? &PlantInputs::limit_min : &PlantInputs::limit_max;
 }
@@ -108,11 +124,14 @@ PlantContact contact_of(const InputConfig& input) {
 Plant plant_of(const MachineConfig& machine, const MotorConfig& motor) {
     Plant plant(motor, machine.tick_ns);
     if (motor.is_board()) { plant.remove_switches(); }
+    connect_spindles(plant.wiring(), machine, motor);
     for (const InputConfig& input : machine.inputs) {
         const bool is_of_axis = motor.axis && machine.axes[*motor.axis].name == input.axis;
         if (input.is_limit_by_message() && is_of_axis) { plant.unwire(limit_of(input)); }
         if (input.motor != motor.name) { continue; }
         set_input(plant, input, false);
+        plant.wiring().bounce(static_cast<unsigned>(input.channel),
+                              ticks_of(input.simulated_bounce_ms * 1e-3, machine));
         if (const PlantContact contact = contact_of(input); contact != nullptr) {
             plant.wire(contact, static_cast<unsigned>(input.channel), input.active_low);
             continue;

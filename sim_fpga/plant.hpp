@@ -19,6 +19,7 @@
 
 #include "core/kinematics/motors.hpp"
 #include "core/step/segment.hpp"
+#include "sim_fpga/wiring/wiring.hpp"
 
 namespace lockstep {
 
@@ -89,8 +90,12 @@ public:
         };
         return {read(&PlantInputs::limit_min), read(&PlantInputs::limit_max), read(&PlantInputs::home)};
     }
-    /// The levels of the device's input pins; pin n is bit n. The switches are at 0, 1 and 2, and high when closed,
-    /// unless they are wired otherwise.
+    /// What else is wired to the device's pins.
+    Wiring& wiring() { return wiring_; }
+    const Wiring& wiring() const { return wiring_; }
+
+    /// The levels of the device's input pins, without wiring(); pin n is bit n. The switches are at 0, 1 and 2, and
+    /// high when closed, unless they are wired otherwise.
     std::uint32_t pins() const {
         const PlantInputs switches = inputs();
         std::uint32_t pins = others_;
@@ -145,6 +150,7 @@ private:
     };
     Probe probe_;
     std::uint32_t others_ = 0;
+    Wiring wiring_;
 
     double max_acceleration_;  // A, steps per tick^2
     double max_gap_;           // max_jump + sqrt(2 A), steps per tick

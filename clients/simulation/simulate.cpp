@@ -11,6 +11,7 @@
 #include "core/gcode/session/probe_touch.hpp"
 #include "core/kinematics/axis_states.hpp"
 #include "core/kinematics/kinematics.hpp"
+#include "core/number_text.hpp"
 #include "services/documents/machine_file.hpp"
 
 namespace lockstep {
@@ -18,6 +19,23 @@ namespace {
 
 constexpr Ticks kTurn{1'000'000};  // how long the machine runs between two checks
 constexpr std::uint64_t kProgram = 1;
+
+/// The output whose simulated spindle closes the input; null if there is none.
+const OutputConfig* spindle_that_ends(const InputWait& wait, const MachineConfig& machine) {
+    const InputConfig* const input = input_numbered(machine.inputs, InputUse::Program, wait.input);
+    const auto closes = [&](const OutputConfig& output) {
+        return input != nullptr && output.simulated_spin_up_s > 0 && output.at_speed == input->name;
+    };
+    const auto found = std::ranges::find_if(machine.outputs, closes);
+    return found == machine.outputs.end() ? nullptr : &*found;
+}
+
+/// What to do about a wait that timed out.
+std::string remedy_of_wait(const OutputConfig* spindle) {
+    if (spindle == nullptr) { return "in a simulation the input is as wanted within milliseconds: give Q more time"; }
+    return "the simulated spindle of output " + spindle->name + " takes up to " +
+           number_text(spindle->simulated_spin_up_s) + " s (simulated_spin_up_s): raise its spin_up_s";
+}
 
 class Simulation {
 public:
@@ -108,12 +126,14 @@ bool Simulation::do_job(CommandKind kind, std::uint64_t program) {
     return advance_while([&] { return !at_rest(); });
 }
 
-/// Nobody changes a simulated input but the wait for it. Returns false if the caller cancelled.
+/// A simulated spindle closes its input by itself; nobody changes another one but the wait for it. Returns false if the
+/// caller cancelled.
 bool Simulation::leave_pause() {
     const Pause why = vm_.state()->pause ? vm_.state()->pause->why : Pause{};
     if (why.reason == PauseReason::InputTimeout) {
         if (!ask(CommandKind::Stop, 0)) { return false; }
-        trouble_ = text_of(why) + "; in a simulation the input is as wanted within milliseconds: give Q more time";
+        const OutputConfig* const spindle = why.wait ? spindle_that_ends(*why.wait, vm_.machine()) : nullptr;
+        trouble_ = text_of(why) + "; " + remedy_of_wait(spindle);
         return true;
     }
     return why.wait ? set_input(*why.wait) : ask(CommandKind::Resume, 0).has_value();
@@ -121,6 +141,10 @@ bool Simulation::leave_pause() {
 
 /// Makes the input as wanted, and returns when the machine no longer waits. An edge needs the other level first.
 bool Simulation::set_input(const InputWait& wait) {
+    const auto waits = [&] {
+        return is(MachinePhase::Paused) && vm_.state()->pause && vm_.state()->pause->why.reason == PauseReason::Input;
+    };
+    if (spindle_that_ends(wait, vm_.machine()) != nullptr) { return advance_while(waits); }
     const std::vector<InputConfig>& inputs = vm_.machine().inputs;
     const auto input = static_cast<std::size_t>(input_numbered(inputs, InputUse::Program, wait.input) - inputs.data());
     const bool is_closed = wait.mode == InputMode::Closes || wait.mode == InputMode::IsClosed;
@@ -131,9 +155,6 @@ bool Simulation::set_input(const InputWait& wait) {
         if (!advance_while([&] { return vm_.now() < seen; })) { return false; }
     }
     vm_.set_input(input, is_closed);
-    const auto waits = [&] {
-        return is(MachinePhase::Paused) && vm_.state()->pause && vm_.state()->pause->why.reason == PauseReason::Input;
-    };
     return advance_while(waits);
 }
 

@@ -77,8 +77,10 @@ void ProgramBuilder::await_speed(const decltype(lockstep::Block::action)& next) 
     awaits_speed_ = false;
     const GcodeSpinUp& spin_up = *setup_.spin_up;
     if (!spin_up.input) { return append(lockstep::Dwell{spin_up.seconds}); }
+    const InputConfig* const input = input_numbered(setup_.inputs, InputUse::Program, *spin_up.input);
+    const std::string sign = input == nullptr ? "" : " (input " + input->name + " closed)";
     append(Pause{.reason = PauseReason::Input,
-                 .text = "until the spindle has its speed, at most " + number_text(spin_up.seconds) + " s",
+                 .text = "until the spindle has its speed" + sign + ", at most " + number_text(spin_up.seconds) + " s",
                  .wait = InputWait{*spin_up.input, InputMode::IsClosed, spin_up.seconds}});
 }
 

@@ -65,12 +65,13 @@ struct OutputConfig {
     bool at_board = false;  // the motor is a board
     int channel = 0;        // of the device's digital outputs, or of its analog ones
     OutputUse use = OutputUse::Number;
-    std::int32_t number = 0;       // if its use has one
-    std::optional<PwmConfig> pwm;  // empty: a digital output
-    bool inverted = false;         // it is on while its pin is low
-    double pulse_us = 0;           // Places: how long each pulse is
-    std::string at_speed;          // Spindle: the input that is closed while it has its speed; empty: there is none
-    double spin_up_s = 0;          // Spindle: how long that takes, with at_speed at most; 0: a feed does not wait
+    std::int32_t number = 0;         // if its use has one
+    std::optional<PwmConfig> pwm;    // empty: a digital output
+    bool inverted = false;           // it is on while its pin is low
+    double pulse_us = 0;             // Places: how long each pulse is
+    std::string at_speed;            // Spindle: the input that is closed while it has its speed; empty: there is none
+    double spin_up_s = 0;            // Spindle: how long that takes, with at_speed at most; 0: a feed does not wait
+    double simulated_spin_up_s = 0;  // Spindle: how long a simulated one takes to full speed; 0: there is none
     // Whether it keeps its level. Otherwise it goes off, and on again when a program goes on.
     bool stays_at_interruption = true;  // when motion ends before its path does
     bool stays_at_fault = false;        // and after an emergency stop

@@ -70,6 +70,7 @@ OutputConfig read_output(const proto::Output& message, const std::string& place,
     constexpr double kUsualWait_s = 30;
     output.at_speed = message.at_speed();
     output.spin_up_s = message.has_spin_up_s() ? message.spin_up_s() : message.has_at_speed() ? kUsualWait_s : 0;
+    output.simulated_spin_up_s = message.simulated_spin_up_s();
     if (message.has_pwm()) { output.pwm = read_pwm(message.pwm(), place + ".pwm", reader); }
     output.stays_at_interruption = read_level(message.has_at_interruption(), message.at_interruption(),
                                               output.stays_at_interruption, place + ".at_interruption", reader);
@@ -102,6 +103,7 @@ InputConfig read_input(const proto::Input& message, const std::string& place, Pr
     if (message.has_number()) { input.number = message.number(); }
     if (message.has_max_overshoot_mm()) { input.max_overshoot_mm = message.max_overshoot_mm(); }
     input.axis = message.axis();
+    input.simulated_bounce_ms = message.simulated_bounce_ms();
     input.at_touch_in_motion = value_of<TouchInMotion>(message.at_touch_in_motion());
     if (!proto::TouchInMotion_IsValid(message.at_touch_in_motion())) {
         const std::string key = place + ".at_touch_in_motion";

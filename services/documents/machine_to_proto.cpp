@@ -103,6 +103,7 @@ void write_output(const OutputConfig& output, proto::Output& message) {
     if (output.makes_pulses()) { message.set_pulse_us(output.pulse_us); }
     if (!output.at_speed.empty()) { message.set_at_speed(output.at_speed); }
     if (output.spin_up_s != 0) { message.set_spin_up_s(output.spin_up_s); }
+    if (output.simulated_spin_up_s != 0) { message.set_simulated_spin_up_s(output.simulated_spin_up_s); }
     if (!output.pwm) { return; }
     message.mutable_pwm()->set_hz(output.pwm->hz);
     message.mutable_pwm()->set_full_scale(output.pwm->full_scale);
@@ -208,6 +209,7 @@ void write_input(const InputConfig& input, proto::Input& message) {
     if (input.number) { message.set_number(*input.number); }
     const bool ends_moves = input.use == InputUse::Probe || input.use == InputUse::Home || input.is_limit_by_message();
     if (!input.axis.empty()) { message.set_axis(input.axis); }
+    if (input.simulated_bounce_ms != 0) { message.set_simulated_bounce_ms(input.simulated_bounce_ms); }
     if (ends_moves) { message.set_max_overshoot_mm(input.max_overshoot_mm); }
     const TouchInMotion touch = input.at_touch_in_motion;
     if (touch != TouchInMotion::Nothing) { message.set_at_touch_in_motion(static_cast<proto::TouchInMotion>(touch)); }

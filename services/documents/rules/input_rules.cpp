@@ -43,6 +43,7 @@ private:
     void check(const InputConfig& input, Inputs before, const std::string& at) {
         check_name(input, before, at + "name");
         problems_.require_range(at + "debounce_ms", input.debounce_ms, 0, kMaxDebounce_ms);
+        problems_.require_range(at + "simulated_bounce_ms", input.simulated_bounce_ms, 0, kMaxDebounce_ms);
         check_number(input, before, at + "number");
         check_overshoot(input, at + "max_overshoot_mm");
         check_touch_in_motion(input, at + "at_touch_in_motion");

@@ -35,6 +35,7 @@ public:
         if (output.pwm) { check_pwm(*output.pwm, output.use, at + "pwm."); }
         if (output.makes_pulses()) { check_pulses(output, at); }
         check_spin_up(output, at);
+        check_simulated_spindle(output, at + "simulated_spin_up_s");
         problems_.require(output.makes_pulses() || output.pulse_us == 0, at + "pulse_us",
                           fmt::format("output {} is on or off; remove pulse_us, or use PLACES", output.name));
     }
@@ -112,6 +113,18 @@ private:
                           fmt::format("at_speed is \"{}\"; it must be the name of an input with use: PROGRAM and a "
                                       "number",
                                       output.at_speed));
+    }
+
+    /// The simulated device knows its own inputs only.
+    void check_simulated_spindle(const OutputConfig& output, const std::string& key) {
+        problems_.require_range(key, output.simulated_spin_up_s, 0, kMostSpinUp_s);
+        const auto input = std::ranges::find(machine_.inputs, output.at_speed, &InputConfig::name);
+        const bool is_there = input != machine_.inputs.end() && input->motor == output.motor;
+        problems_.require(
+            output.simulated_spin_up_s == 0 || is_there, key,
+            fmt::format("output {} has a simulated spindle, which closes the input at_speed; name an input "
+                        "of the same device there, or remove simulated_spin_up_s",
+                        output.name));
     }
 
     void check_pulses(const OutputConfig& output, const std::string& at) {

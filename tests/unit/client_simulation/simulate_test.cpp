@@ -50,6 +50,37 @@ TEST(Simulate, ThroughEveryPauseToTheEnd) {
     EXPECT_EQ(result->motion, plan_program(machine, program)->duration);
 }
 
+/// A spindle that takes 2 s to S1000, for which programs wait so long at most.
+MachineConfig with_spindle(double spin_up_s) {
+    MachineConfig machine = example("two-axis");
+    machine.inputs = {{.name = "ready", .motor = "X", .channel = 3, .use = InputUse::Program, .number = 3}};
+    machine.outputs = {{.name = "spindle",
+                        .motor = "X",
+                        .use = OutputUse::Spindle,
+                        .pwm = PwmConfig{.hz = 5000, .full_scale = 1000},
+                        .at_speed = "ready",
+                        .spin_up_s = spin_up_s,
+                        .simulated_spin_up_s = 2}};
+    return machine;
+}
+
+TEST(Simulate, WaitsForASimulatedSpindleAndTellsWhatToDoAboutASlowOne) {
+    NoSink nowhere;
+    const std::string text = "M3 S1000\nG1 X15 F1200\nM5\n";
+    const MachineConfig patient = with_spindle(5);
+    const auto done = simulate(patient, program_of(patient, text), nowhere);
+    ASSERT_TRUE(done.has_value());
+    EXPECT_EQ(done->outcome, JobOutcome::Done) << done->trouble;
+    const MachineConfig hasty = with_spindle(0.5);
+    const auto stopped = simulate(hasty, program_of(hasty, text), nowhere);
+    ASSERT_TRUE(stopped.has_value());
+    EXPECT_EQ(stopped->outcome, JobOutcome::Failed);
+    EXPECT_EQ(stopped->trouble,
+              "the wait for an input timed out, and resume waits again: until the spindle has its speed (input ready "
+              "closed), at most 0.5 s; the simulated spindle of output spindle takes up to 2 s (simulated_spin_up_s): "
+              "raise its spin_up_s");
+}
+
 TEST(Simulate, TheSameRecordByteForByte) {
     const MachineConfig machine = example("two-axis");
     const Program program = program_of(machine, "G0 X30 Y40\nG0 X5 Y5\n");

@@ -70,6 +70,9 @@ TEST(Outputs, ThatCannotBeAreRefusedWithPlaceAndRemedy) {
                   "can make pulses at places of one output"},
              Case{"output { name: \"a\" motor: \"X\" spin_up_s: 1 }\n", "is no spindle that comes to a speed"},
              Case{"output { name: \"a\" motor: \"X\" use: SPINDLE spin_up_s: 3601 }\n", "spin_up_s is 3601"},
+             Case{
+                 "output { name: \"a\" motor: \"X\" use: SPINDLE simulated_spin_up_s: 2 }\n",
+                 "output a has a simulated spindle, which closes the input at_speed; name an input of the same device"},
              Case{"output { name: \"a\" motor: \"X\" use: SPINDLE at_speed: \"ready\" }\n",
                   "at_speed is \"ready\"; it must be the name of an input"},
              Case{"output { name: \"a\" motor: \"X\" use: SPINDLE pwm { hz: 10 follows_speed: true } spin_up_s: 1 }\n",
