@@ -71,8 +71,8 @@ private:
     bool is_device_at_fault() const {
         return std::ranges::any_of(recording_.faults, [&](const VirtualFault& fault) {
             return fault.is_of_device() && std::ranges::any_of(probe_.touches, [&](const TouchRecord& touch) {
-                       const bool is_then =
-                           fault.at <= touch.pressed + touch.debounce + kSeen && fault.end() >= touch.pressed;
+                       const bool is_then = fault.at <= touch.pressed + touch.bounce + touch.debounce + kSeen &&
+                                            fault.end() >= touch.pressed;
                        return fault.process == touch.motor && is_then;
                    });
         });
@@ -88,12 +88,20 @@ private:
         return false;
     }
 
-    /// The first touch counts. A probe that touches at rest may be reported when the motion is about to begin.
+    /// For how long the inputs bounce that have touched.
+    Ticks bounce_of_touches() const {
+        Ticks bounce;
+        for (const TouchRecord& touch : probe_.touches) { bounce = std::max(bounce, touch.bounce); }
+        return bounce;
+    }
+
+    /// The first touch counts. It is when the pin has last changed before it kept its level. A probe that touches at
+    /// rest may be reported when the motion is about to begin.
     void check_time() {
         if (probe_.touches.empty()) { return object("a touch is reported, but nothing touched"); }
         const Tick pressed = probe_.touches.front().pressed;
         const Tick reported = probe_.result.tick;
-        const Ticks most = error_of_touches() + error_of_touches() + kSeen;
+        const Ticks most = error_of_touches() + error_of_touches() + bounce_of_touches() + kSeen;
         if (reported > pressed + most && !has_steps_between(pressed, reported)) { return; }
         const Ticks off = reported - pressed;
         if (off > most || off < Ticks{} - most) {
@@ -116,8 +124,9 @@ private:
     /// The probe touched while the machine still moved afterwards, and no fault explains why that was missed.
     void check_unnoticed() {
         if (probe_.touches.empty() || !probe_.is_undisturbed) { return; }
-        Tick known = probe_.touches.front().pressed + probe_.touches.front().debounce;
-        for (const TouchRecord& touch : probe_.touches) { known = std::min(known, touch.pressed + touch.debounce); }
+        const auto known_by = [](const TouchRecord& touch) { return touch.pressed + touch.bounce + touch.debounce; };
+        Tick known = known_by(probe_.touches.front());
+        for (const TouchRecord& touch : probe_.touches) { known = std::min(known, known_by(touch)); }
         for (std::size_t m = 0; m < recording_.motors.size(); ++m) {
             const auto steps = recording_.steps_of(job_, m);
             if (steps.empty() || recording_.motors[m].truth(steps.back()) <= known) { continue; }

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "tests/simulation/simtest/draw/draw_bounces.hpp"
 #include "tests/simulation/simtest/draw/draw_fault.hpp"
 #include "tests/simulation/simtest/draw/draw_inputs.hpp"
 #include "tests/simulation/simtest/draw/draw_jogs.hpp"
@@ -314,6 +315,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (kind.late_devices) { give_late_devices(seed, scenario); }
     if (kind.inputs) { give_inputs(seed, scenario); }
     if (kind.probes) { give_probes(seed, scenario); }
+    if (kind.bounces) { give_bounces(seed, scenario); }
     if (kind.jogs) { give_jogs(seed, with_plant(faults, asked), scenario); }
     return scenario;
 }

@@ -81,6 +81,7 @@ struct MachineKind {
     bool probes = false;              // programs probe (draw_probes.hpp)
     bool outputs = false;             // programs switch outputs (draw_outputs.hpp)
     bool boards = false;              // with a device without a motor
+    bool bounces = false;             // contacts of inputs bounce (draw_bounces.hpp)
 
     /// How a command line asks for it.
     struct Flag {
@@ -109,6 +110,7 @@ inline constexpr auto kMachineFlags = std::to_array<MachineKind::Flag>(
       "machines with outputs that programs switch, one of them in proportion to the speed"},
      {"--boards", &MachineKind::boards,
       "machines with a board: a device without a motor, for some of the outputs and inputs"},
+     {"--bounces", &MachineKind::bounces, "with --inputs or --probes: their contacts bounce"},
      {"--jogs", &MachineKind::jogs, "axes are also jogged, between programs"}});
 
 /// A command that the machine must refuse, and the reason. The machine must continue as if it had not been given.

@@ -118,6 +118,7 @@ struct TouchRecord {
     std::size_t motor = 0;  // whose device has it
     Tick pressed;
     Ticks debounce;
+    Ticks bounce;
 };
 
 /// How a probing move ended.
@@ -153,7 +154,7 @@ struct Emergency {
     Tick asked;
     Tick rests;
     std::optional<std::size_t> by_input = {};  // the motor whose device has the input
-    Ticks debounce = {};                       // of that input
+    Ticks debounce = {};                       // of that input, and for how long it bounces
 };
 
 /// Keys of a jog that a client released, or whose renewals ceased.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/clock/clock_asker.hpp"
+#include "tests/simulation/simtest/draw/draw_bounces.hpp"
 #include "tests/simulation/simtest/record/explain.hpp"
 
 namespace lockstep::simtest {
@@ -236,8 +237,8 @@ double Bench::input_seconds(std::size_t input) const {
     constexpr double kLossySlots = 40;
     const double late =
         static_cast<double>(scenario_.lateness(motor_named(machine(), machine().inputs[input].motor).value()).value);
-    return machine().inputs[input].debounce_ms * 1e-3 + (lossy() ? kLossySlots : kSlots) * slot_s() +
-           2 * late / machine().ticks_per_second();
+    const double settles_s = machine().inputs[input].debounce_ms * 1e-3 + bounce_seconds(machine().inputs[input]);
+    return settles_s + (lossy() ? kLossySlots : kSlots) * slot_s() + 2 * late / machine().ticks_per_second();
 }
 
 }  // namespace lockstep::simtest

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/axis/device/position_claim.hpp"
+#include "tests/simulation/simtest/draw/draw_bounces.hpp"
 #include "tests/simulation/simtest/draw/draw_inputs.hpp"
 #include "tests/simulation/simtest/record/motor_course.hpp"
 #include "tests/simulation/simtest/run/probe_record.hpp"
@@ -382,13 +383,14 @@ void JobPlayer::set_overrides(const Overrides& overrides) {
 /// While the stop is pressed, a reset is refused. It is released for the reset that makes the machine ready.
 void JobPlayer::press_stop() {
     const InputConfig& input = bench_.machine().inputs[kStopInput];
+    const double ticks_per_second = bench_.machine().ticks_per_second();
     const Tick pressed = bench_.vm().now();
     job_.emergency = pressed;
     bench_.recording().emergencies.push_back(
         {.asked = pressed,
          .rests = pressed,
          .by_input = motor_named(bench_.machine(), input.motor),
-         .debounce = {std::llround(input.debounce_ms * 1e-3 * bench_.machine().ticks_per_second())}});
+         .debounce = {std::llround((input.debounce_ms * 1e-3 + bounce_seconds(input)) * ticks_per_second)}});
     bench_.set_input(kStopInput, true);
     (void)bench_.await([&] { return disturbed(); }, bench_.protocol_seconds(), "an emergency stop by an input");
     bench_.wait(bench_.input_seconds(kStopInput));  // a disturbed machine may need as long to notice it
@@ -409,7 +411,8 @@ void JobPlayer::open_door(const Interrupt& interrupt) {
     const double seconds = 2 * bench_.protocol_seconds() + job_.course.seconds;
     if (bench_.await([&] { return rests() || disturbed(); }, seconds, "the hold by a door") && rests() && !ended()) {
         const auto before = bench_.steps_made();
-        bench_.wait(interrupt.rest_s);
+        const InputConfig& door = bench_.machine().inputs[kDoorInput];
+        bench_.wait(interrupt.rest_s + (bounce_seconds(door) > 0 ? bench_.input_seconds(kDoorInput) : 0));
         const Reply* reply = bench_.ask(CommandKind::Resume);
         if (reply != nullptr && !is_refusal(*reply, FaultCode::DoorOpen) && !disturbed()) {
             bench_.object("door", "a resume while it is open: " + answer_text(*reply));
@@ -484,6 +487,7 @@ void JobPlayer::record_probe() {
     }
     const auto& result = bench_.vm().state()->probe;
     if (!begun_ || !result || result->job == probed_before_) { return; }
+    if (result->job != bench_.vm().state()->job) { return; }  // a new owner reports the result of an earlier job
     job_.probe = probe_record(bench_, task_.program, job_, at_);
     job_.probe->touches = touches_;
     job_.probe->is_undisturbed = !disturbed() && !job_.emergency;

@@ -6,6 +6,7 @@
 
 #include "core/coordinator/program/probe_check.hpp"
 #include "core/kinematics/motors.hpp"
+#include "tests/simulation/simtest/draw/draw_bounces.hpp"
 
 namespace lockstep::simtest {
 namespace {
@@ -60,10 +61,12 @@ std::vector<std::size_t> probe_inputs(const MachineConfig& machine) {
 TouchRecord touch_record(const MachineConfig& machine, std::size_t input, Tick pressed) {
     const InputConfig& config = machine.inputs[input];
     const double debounce = std::ceil(config.debounce_ms * 1e-3 * machine.ticks_per_second());
+    const double bounce = std::ceil(bounce_seconds(config) * machine.ticks_per_second());
     return {.input = input,
             .motor = motor_named(machine, config.motor).value(),
             .pressed = pressed,
-            .debounce = {std::llround(debounce)}};
+            .debounce = {std::llround(debounce)},
+            .bounce = {std::llround(bounce)}};
 }
 
 ProbeRecord probe_record(Bench& bench, const Program& program, const JobRecord& job, const Counts& at) {

@@ -1,0 +1,16 @@
+#include "tests/simulation/simtest/draw/draw_bounces.hpp"
+
+#include "tests/simulation/simtest/draw/draw.hpp"
+
+namespace lockstep::simtest {
+
+void give_bounces(std::uint64_t seed, Scenario& scenario) {
+    Draw draw(seed ^ 0xb0c7ceb0c7ceb0c7U);
+    for (InputConfig& input : scenario.machine.inputs) {
+        const bool is_short = draw.chance(0.5);
+        const double most_ms = is_short ? 0.9 * input.debounce_ms : 10;
+        input.simulated_bounce_ms = most_ms * draw.part();
+    }
+}
+
+}  // namespace lockstep::simtest
