@@ -13,6 +13,7 @@
 #include "core/device/input_config.hpp"
 #include "core/device/link_name.hpp"
 #include "core/enumeration.hpp"
+#include "core/device/workpiece_config.hpp"
 #include "core/outputs/output_config.hpp"
 #include "core/outputs/unassigned_words.hpp"
 #include "core/protocol/timing.hpp"
@@ -283,6 +284,7 @@ struct MachineConfig {
     std::vector<OutputConfig> outputs;
     double output_silence_ms = 500;  // how long a process may be silent until the outputs of its device go off
     std::vector<InputConfig> inputs;
+    std::optional<WorkpieceConfig> workpiece;  // of a simulation
 
     std::vector<std::string> axis_names() const;
     constexpr double ticks_per_second() const { return 1e9 / static_cast<double>(tick_ns); }

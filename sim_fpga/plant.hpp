@@ -68,6 +68,12 @@ public:
         const std::uint32_t bit = std::uint32_t{1} << input;
         others_ = high ? others_ | bit : others_ & ~bit;
     }
+    /// Closes or opens a contact at the pin of an input, beside whatever else closes it. `low`: closed is low.
+    void set_contact(unsigned input, bool closed, bool low) {
+        std::uint32_t& contacts = low ? contacts_.low : contacts_.high;
+        const std::uint32_t bit = std::uint32_t{1} << input;
+        contacts = closed ? contacts | bit : contacts & ~bit;
+    }
     /// Makes a switch stick: it has this reading for any position. With nullopt it works again.
     void stick(PlantContact contact, std::optional<bool> reads) {
         stuck_closed_.*contact = reads == true;
@@ -80,6 +86,7 @@ public:
     /// The true position of the motor, in whole steps since power-up.
     std::int64_t encoder() const { return motor_; }
     /// That of the slide.
+    std::int64_t slide() const { return slide_; }
     double position_mm() const;
     PlantInputs inputs() const {
         const PlantInputs closed{.limit_min = slide_ <= limit_min_at_,
@@ -103,7 +110,8 @@ public:
         if (switches.limit_max) { pins = limit_max_.close(pins); }
         if (switches.home) { pins = home_.close(pins); }
         const bool touches = probe_.toward_min ? slide_ <= probe_.at : slide_ >= probe_.at;
-        return touches ? probe_.wires.close(pins) : pins;
+        const std::uint32_t levels = touches ? probe_.wires.close(pins) : pins;
+        return (levels | contacts_.high) & ~contacts_.low;
     }
 
 private:
@@ -149,6 +157,11 @@ private:
         bool toward_min = false;
     };
     Probe probe_;
+    struct Contacts {
+        std::uint32_t high = 0;  // pins that are high because something touches
+        std::uint32_t low = 0;
+    };
+    Contacts contacts_;
     std::uint32_t others_ = 0;
     Wiring wiring_;
 
@@ -171,6 +184,10 @@ Plant plant_of(const MachineConfig& machine, const MotorConfig& motor);
 /// Closes or opens an input of the machine whose pin is at this plant.
 inline void set_input(Plant& plant, const InputConfig& input, bool closed) {
     plant.set_pin(static_cast<unsigned>(input.channel), closed != input.active_low);
+}
+/// The same for the contact of a probe with what it touches.
+inline void set_contact(Plant& plant, const InputConfig& input, bool closed) {
+    plant.set_contact(static_cast<unsigned>(input.channel), closed, input.active_low);
 }
 
 }  // namespace lockstep

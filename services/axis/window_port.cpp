@@ -7,7 +7,7 @@ namespace lockstep {
 
 /// While the device is in the middle of an update, the driver shows what it read before.
 std::expected<std::optional<DeviceReading>, std::string> WindowPort::read(Tick own) {
-    if (simulated_) { simulated_->advance(own); }
+    if (simulated_) { run_simulated(own); }
     const Tick asked = now(own);
     const auto status = driver_.read();
     if (!status) { return std::unexpected(status.error()); }
@@ -17,6 +17,11 @@ std::expected<std::optional<DeviceReading>, std::string> WindowPort::read(Tick o
         newest_ = DeviceReading{*status, asked, now(own), driver_.abilities().behind};
     }
     return newest_;
+}
+
+void WindowPort::run_simulated(Tick until) {
+    const auto run = [this](Tick at) { simulated_->advance(at); };
+    touched_ ? touched_->advance(until, simulated_->plant(), run) : run(until);
 }
 
 std::expected<std::uint32_t, std::string> WindowPort::drain(const OnStep& on_step) {
@@ -54,7 +59,10 @@ std::expected<std::unique_ptr<DevicePort>, std::string> simulated_port(const Mac
                                                     static_cast<std::uint64_t>(now.value));
     auto driver = attach_driver(window, machine, motor);
     if (!driver) { return std::unexpected(driver.error()); }
-    return std::make_unique<WindowPort>(std::move(*driver), std::move(device));
+    if (!machine.workpiece) { return std::make_unique<WindowPort>(std::move(*driver), std::move(device)); }
+    auto touched = TouchedDevice::open(machine, motor_named(machine, motor.name).value(), now);
+    if (!touched) { return std::unexpected(touched.error()); }
+    return std::make_unique<WindowPort>(std::move(*driver), std::move(device), std::move(*touched));
 }
 
 }  // namespace lockstep

@@ -14,6 +14,7 @@
 #include "services/axis/device_driver.hpp"
 #include "services/axis/device_port.hpp"
 #include "sim_fpga/device.hpp"
+#include "sim_fpga/work/touched_device.hpp"
 
 namespace lockstep {
 
@@ -24,8 +25,10 @@ public:
 
     /// A device that counts the host's clock. `simulated`: the device itself, if it is simulated in this process. It
     /// runs up to the present whenever it is read.
-    explicit WindowPort(DeviceDriver driver, std::unique_ptr<SimulatedDevice> simulated = nullptr)
-        : driver_(std::move(driver)), simulated_(std::move(simulated)) {}
+    /// `touched`: its workpiece, if the machine has one.
+    explicit WindowPort(DeviceDriver driver, std::unique_ptr<SimulatedDevice> simulated = nullptr,
+                        std::optional<TouchedDevice> touched = std::nullopt)
+        : driver_(std::move(driver)), simulated_(std::move(simulated)), touched_(std::move(touched)) {}
     /// A device with a clock of its own. `host_clock` is read before and after the registers.
     WindowPort(DeviceDriver driver, ReadClock host_clock)
         : driver_(std::move(driver)), host_clock_(std::move(host_clock)) {}
@@ -39,10 +42,12 @@ public:
     std::uint64_t lost_channel_events() const override { return driver_.lost_events(); }
 
 private:
+    void run_simulated(Tick until);
     Tick now(Tick own) const { return host_clock_ ? host_clock_() : own; }
 
     DeviceDriver driver_;
     std::unique_ptr<SimulatedDevice> simulated_;
+    std::optional<TouchedDevice> touched_;
     ReadClock host_clock_;  // empty: the device counts it
     std::optional<DeviceReading> newest_;
 };
@@ -55,7 +60,8 @@ std::expected<DeviceDriver, std::string> find_device(RegisterWindow window, cons
 std::expected<DeviceDriver, std::string> attach_driver(RegisterWindow window, const MachineConfig& machine,
                                                        const MotorConfig& motor);
 
-/// The port to a device that is simulated in this process, powered up at `now`. Error: as attach_driver.
+/// The port to a device that is simulated in this process, powered up at `now`. Errors: those of attach_driver and
+/// TouchedDevice::open.
 std::expected<std::unique_ptr<DevicePort>, std::string> simulated_port(const MachineConfig& machine,
                                                                        const MotorConfig& motor, Tick now);
 

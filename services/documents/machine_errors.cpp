@@ -58,6 +58,7 @@ Problems problems_of(const MachineDraft& draft, const Text& text) {
         add(pin_problems(draft.machine));
         add(input_problems(draft.machine));
         add(output_problems(draft.machine));
+        add(workpiece_problems(draft.machine));
     }
     return problems;
 }

@@ -10,6 +10,7 @@
 #include "services/documents/proto_reader.hpp"
 #include "services/documents/proto_values.hpp"
 #include "services/documents/rules/axis_ranges.hpp"
+#include "services/documents/workpiece/workpiece_proto.hpp"
 
 namespace lockstep {
 namespace {
@@ -379,6 +380,9 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     }
     draft.machine.kinematics = read_kinematics(message, ProtoReader(draft.missing));
     read_devices(message, draft);
+    if (message.has_workpiece()) {
+        draft.machine.workpiece = read_workpiece(message.workpiece(), ProtoReader(draft.missing));
+    }
     set_steps_of_axes(draft.machine);
     draft.machine.network.processes = motor_count(draft.machine) + 1;  // the coordinator
     return draft;

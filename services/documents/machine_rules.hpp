@@ -56,4 +56,7 @@ std::vector<Problem> output_problems(const MachineConfig& machine);
 /// Checks the inputs, after all motors were found sound.
 std::vector<Problem> input_problems(const MachineConfig& machine);
 
+/// Checks the simulated workpiece, after all inputs were found sound.
+std::vector<Problem> workpiece_problems(const MachineConfig& machine);
+
 }  // namespace lockstep

@@ -2,6 +2,7 @@
 #include "services/documents/machine_proto.hpp"
 #include "services/documents/number_field.hpp"
 #include "services/documents/proto_values.hpp"
+#include "services/documents/workpiece/workpiece_proto.hpp"
 
 namespace lockstep {
 namespace {
@@ -263,6 +264,7 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
     for (const OutputConfig& output : machine.outputs) { write_output(output, *message.add_output()); }
     if (!machine.outputs.empty()) { message.set_output_silence_ms(machine.output_silence_ms); }
     for (const InputConfig& input : machine.inputs) { write_input(input, *message.add_input()); }
+    if (machine.workpiece) { write_workpiece(*machine.workpiece, *message.mutable_workpiece()); }
     return message;
 }
 

@@ -7,6 +7,7 @@
 #include <expected>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <random>
 #include <utility>
 
@@ -18,6 +19,7 @@
 #include "services/runtime/log.hpp"
 #include "services/runtime/periodic.hpp"
 #include "services/runtime/service_options.hpp"
+#include "sim_fpga/work/touched_device.hpp"
 
 namespace lockstep {
 namespace {
@@ -53,6 +55,14 @@ public:
         return {};
     }
 
+    /// Error: that of TouchedDevice::open.
+    std::expected<void, std::string> touch_work(const MachineConfig& machine, std::size_t motor) {
+        auto touched = TouchedDevice::open(machine, motor, clock_.now());
+        if (!touched) { return std::unexpected(touched.error()); }
+        touched_.emplace(std::move(*touched));
+        return {};
+    }
+
     std::expected<void, std::string> advance() {
         if (!device_->is_intact()) {
             log_error(
@@ -60,7 +70,8 @@ public:
             if (auto up = power_up(); !up) { return up; }
         }
         inputs_.apply_to(device_->plant());
-        device_->advance(clock_.now());
+        const auto run = [this](Tick until) { device_->advance(until); };
+        touched_ ? touched_->advance(clock_.now(), device_->plant(), run) : run(clock_.now());
         return {};
     }
 
@@ -72,6 +83,7 @@ private:
     ClosedInputs inputs_;
     Plant plant_;
     std::unique_ptr<ServedDevice> device_;
+    std::optional<TouchedDevice> touched_;  // none: the machine has no workpiece
 };
 
 std::expected<Board, std::string> set_up(const FpgaOptions& options, MakeDevice make) {
@@ -82,6 +94,8 @@ std::expected<Board, std::string> set_up(const FpgaOptions& options, MakeDevice 
     if (!axis) { return std::unexpected(options.machine_file + ": no axis \"" + options.axis + "\""); }
     Board board(options, make, motors_of(machine)[*axis], machine);
     if (auto up = board.power_up(); !up) { return std::unexpected(up.error()); }
+    if (!machine.workpiece) { return board; }
+    if (auto work = board.touch_work(machine, *axis); !work) { return std::unexpected(work.error()); }
     return board;
 }
 

@@ -37,7 +37,7 @@ void mislead_newest_frame(RegisterWindow& window) {
 
 VirtualDevices::VirtualDevices(const MachineConfig& machine, const MachineClocks& clocks,
                                const std::vector<LinkDelay>& links, std::uint64_t seed, Tick now)
-    : clocks_(clocks), machine_(machine), motors_(motors_of(machine)), seed_(seed), switches_(machine) {
+    : clocks_(clocks), machine_(machine), motors_(motors_of(machine)), seed_(seed), switches_(machine), work_(machine) {
     for (std::size_t i = 0; i < motors_.size(); ++i) {
         devices_.push_back({.window = RegisterWindow::in_process(), .simulated = nullptr, .link = {}});
         const bool has_link = i < links.size() && links[i].most > Ticks{};
@@ -83,15 +83,16 @@ void VirtualDevices::set_input(std::size_t input, bool closed, Tick now) {
     lockstep::set_input((*this)[motor].plant(), config, closed);
 }
 
-/// An axis that searches its switch goes a small part of a step in kLook. Only where a switch may change, so many times
-/// are looked at.
+/// An axis that searches its switch, or a probe that approaches the workpiece, goes a small part of a step in kLook.
+/// Only where a switch may change, so many times are looked at.
 void VirtualDevices::follow_switches(Tick now) {
-    if (switches_.none()) { return; }
+    if (switches_.none() && work_.none()) { return; }
     constexpr Ticks kLook{16};
     for (Tick at = followed_ + kLook; may_change_ && at < now; at += kLook) { follow_switches_at(at); }
     follow_switches_at(now);
     followed_ = now;
-    may_change_ = switches_.may_change_next();
+    const bool may_touch = work_.may_change_next();
+    may_change_ = switches_.may_change_next() || may_touch;
 }
 
 void VirtualDevices::follow_switches_at(Tick now) {
@@ -101,6 +102,10 @@ void VirtualDevices::follow_switches_at(Tick now) {
         motors_mm.push_back((*this)[i].plant().position_mm());
     }
     switches_.follow(motors_mm, [&](std::size_t input, bool closed) { set_input(input, closed, now); });
+    work_.follow(motors_mm, [&](std::size_t input, bool closed) {
+        const InputConfig& config = machine_.inputs[input];
+        set_contact((*this)[motor_named(machine_, config.motor).value()].plant(), config, closed);
+    });
 }
 
 void VirtualDevices::apply(const VirtualFault& fault, bool begins, Tick now) {

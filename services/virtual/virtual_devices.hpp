@@ -13,6 +13,7 @@
 #include "services/virtual/late_link.hpp"
 #include "services/virtual/machine_clocks.hpp"
 #include "services/virtual/virtual_fault.hpp"
+#include "sim_fpga/work/work_contacts.hpp"
 
 namespace lockstep {
 
@@ -39,7 +40,7 @@ public:
     void end(const VirtualFault& fault, Tick now) { apply(fault, false, now); }
     /// Closes or opens an input of the machine, by its number there.
     void set_input(std::size_t input, bool closed, Tick now);
-    /// The switches of axes follow these, to 16 ticks.
+    /// The switches of axes, and the inputs of probes that touch the workpiece, follow the slides to 16 ticks.
     void follow_switches(Tick now);
 
 private:
@@ -65,7 +66,8 @@ private:
     std::uint64_t seed_;
     std::vector<Device> devices_;
     AxisSwitches switches_;
-    Tick followed_;  // by switches_
+    WorkContacts work_;
+    Tick followed_;  // by both
     bool may_change_ = true;
 };
 

@@ -42,6 +42,16 @@ std::vector<Key> keys() {
     return found;
 }
 
+/// What a workpiece needs.
+const std::string kWithWorkpiece = [] {
+    std::string text;
+    for (const char* name : {"Y", "Z"}) {
+        text += std::regex_replace(std::string(kShortest), std::regex("name: \"m\"\n|\\n"), " ");
+        text = std::regex_replace(text, std::regex("\"X\""), '"' + std::string(name) + '"');
+    }
+    return text + R"(input { name: "tip" motor: "X" channel: 3 use: PROBE } )";
+}();
+
 /// The shortest machine with this key set; nullopt if the block is not in the table.
 std::optional<std::string> machine_with_key(const Key& key, const std::string& value) {
     static const std::map<std::string, std::pair<std::string, std::string>> kAround{
@@ -60,6 +70,10 @@ std::optional<std::string> machine_with_key(const Key& key, const std::string& v
         {"Input", {"input { name: \"s\" motor: \"X\" channel: 3 use: PROBE number: 1 ", " }"}},
         {"Output", {"output { name: \"o\" motor: \"X\" channel: 0 number: 0 ", " }"}},
         {"Pwm", {"output { name: \"o\" motor: \"X\" use: SPINDLE pwm { hz: 100 ", " } }"}},
+        {"Workpiece", {kWithWorkpiece + "workpiece { ", " }"}},
+        {"WorkBlock",
+         {kWithWorkpiece + "workpiece { block { x_min_mm: 0 x_max_mm: 1 y_min_mm: 0 y_max_mm: 1 top_mm: 0 ", " } }"}},
+        {"WorkPost", {kWithWorkpiece + "workpiece { post { x_mm: 0 y_mm: 0 diameter_mm: 1 top_mm: 0 ", " } }"}},
         {"Axis", {"", ""}}};
     const auto around = kAround.find(key.block);
     if (around == kAround.end()) { return std::nullopt; }
@@ -137,7 +151,7 @@ TEST(MachineReference, EveryDefaultStatedIsTheOneTaken) {
         const auto given = parse_machine(*text);
         ASSERT_TRUE(given) << to_text("machine", given.error());
         std::string without = std::string(kShortest) + (key.block == "Web" ? "web { }\n" : "");
-        if (key.block == "Input" || key.block == "Output" || key.block == "Pwm") {
+        if (key.block == "Input" || key.block == "Output" || key.block == "Pwm" || key.block.starts_with("Work")) {
             without = std::regex_replace(*text, std::regex(key.name + ": " + stated[1].str() + " \\}"), "}");
         }
         EXPECT_EQ(machine_text(*given), machine_text(parse_machine(without).value())) << key.name << " " << stated[0];

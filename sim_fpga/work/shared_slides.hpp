@@ -1,0 +1,40 @@
+// The places of a machine's simulated slides in shared memory, so that the simulated device of one motor knows where
+// the slides of the others are. Only a machine with a workpiece has it, and only simulated devices use it.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <expected>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/machine.hpp"
+
+namespace lockstep {
+
+class SharedSlides {
+public:
+    /// Creates the memory if it is missing. Error: it cannot be created or mapped.
+    static std::expected<SharedSlides, std::string> open(const MachineConfig& machine);
+
+    /// Whole steps since the slide's power-up.
+    void publish(std::size_t motor, std::int64_t steps) { word(motor).store(steps, std::memory_order_relaxed); }
+    /// Of each motor, in mm. A slide that was never published stands at its start.
+    std::vector<double> places_mm() const;
+
+private:
+    struct Slide {
+        double start_mm;
+        double steps_per_mm;
+    };
+    SharedSlides(std::shared_ptr<std::int64_t[]> words, std::vector<Slide> slides)
+        : words_(std::move(words)), slides_(std::move(slides)) {}
+    std::atomic_ref<std::int64_t> word(std::size_t motor) const { return std::atomic_ref(words_[motor]); }
+
+    std::shared_ptr<std::int64_t[]> words_;
+    std::vector<Slide> slides_;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,51 @@
+#include "sim_fpga/work/work_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lockstep {
+
+WorkContacts::WorkContacts(const MachineConfig& machine, const std::string& motor)
+    : kinematics_(machine), work_(machine.workpiece.value_or(WorkpieceConfig{})) {
+    if (!machine.workpiece) { return; }
+    for (const char* name : {"X", "Y", "Z"}) {
+        const auto axis = std::ranges::find(machine.axes, name, &AxisConfig::name);
+        axes_.push_back(static_cast<std::size_t>(axis - machine.axes.begin()));
+    }
+    for (const AxisConfig& axis : machine.axes) { step_mm_.push_back(1 / axis.steps_per_mm); }
+    for (const std::size_t axis : axes_) { least_mm_ = std::max(least_mm_, 2 * step_mm_[axis]); }
+    for (std::size_t i = 0; i < machine.inputs.size(); ++i) {
+        const InputConfig& input = machine.inputs[i];
+        if (input.use != InputUse::Probe || (!motor.empty() && input.motor != motor)) { continue; }
+        contacts_.push_back({.input = i, .probe = input.number.value_or(0)});
+    }
+}
+
+WorkPlace WorkContacts::place_of(const std::vector<double>& motors_mm) const {
+    std::vector<Position> motors;
+    for (std::size_t m = 0; m < motors_mm.size(); ++m) {
+        motors.push_back(Position::steps(to_steps(kinematics_.motors()[m], motors_mm[m])));
+    }
+    const auto mm = [&](std::size_t axis) { return kinematics_.axis_steps(axis, motors) * step_mm_[axis]; };
+    return {mm(axes_[0]), mm(axes_[1]), mm(axes_[2])};
+}
+
+void WorkContacts::follow(const std::vector<double>& motors_mm, const std::function<void(std::size_t, bool)>& set) {
+    place_ = place_of(motors_mm);
+    for (Contact& contact : contacts_) {
+        contact.gap_mm = work_.gap_mm(contact.probe, place_);
+        const bool is_closed = contact.gap_mm <= 0;
+        if (is_closed != contact.is_closed) { set(contact.input, is_closed); }
+        contact.is_closed = is_closed;
+    }
+}
+
+bool WorkContacts::may_change_next() {
+    const WorkPlace begun = std::exchange(begun_at_, place_);
+    const double way = std::hypot(place_.x_mm - begun.x_mm, place_.y_mm - begun.y_mm, place_.z_mm - begun.z_mm);
+    return std::ranges::any_of(contacts_,
+                               [&](const Contact& contact) { return std::abs(contact.gap_mm) <= 3 * way + least_mm_; });
+}
+
+}  // namespace lockstep

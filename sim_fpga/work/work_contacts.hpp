@@ -1,0 +1,47 @@
+// The inputs of probes that a simulated workpiece closes, wherever the slides of the machine's motors are.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/kinematics/kinematics.hpp"
+#include "core/machine.hpp"
+#include "sim_fpga/work/workpiece.hpp"
+
+namespace lockstep {
+
+class WorkContacts {
+public:
+    /// `motor`: follows only the inputs of this motor's device; empty: all.
+    explicit WorkContacts(const MachineConfig& machine, const std::string& motor = {});
+
+    /// There is no workpiece, or no input of a probe.
+    bool none() const { return contacts_.empty(); }
+    /// Calls set(input, closed) for each input that changes while the slides of the motors are at these places, in mm.
+    void follow(const std::vector<double>& motors_mm, const std::function<void(std::size_t, bool)>& set);
+    /// Call it after each interval of motion. Returns whether an input may change in the next one, in which an axis
+    /// goes at most three times as far.
+    bool may_change_next();
+
+private:
+    struct Contact {
+        std::size_t input = 0;  // of the machine
+        int probe = 0;
+        bool is_closed = false;
+        double gap_mm = 0;
+    };
+    WorkPlace place_of(const std::vector<double>& motors_mm) const;
+
+    Kinematics kinematics_;
+    Workpiece work_;
+    std::vector<std::size_t> axes_;  // X, Y and Z
+    std::vector<double> step_mm_;    // of each axis of the machine
+    double least_mm_ = 0;            // of a motion that began in the interval
+    std::vector<Contact> contacts_;
+    WorkPlace place_;  // now, and at the begin of the interval
+    WorkPlace begun_at_;
+};
+
+}  // namespace lockstep
