@@ -30,7 +30,8 @@ void add_keys(Verb command);  // make, show, check
 void add_spy(Verb command);
 void add_home(Verb command);
 void add_move(Verb command);
-void add_probe(Verb command);
+void add_probe(Verb command);         // edge, angle, corner, bore, boss, tool, surface
+void add_measurements(Verb command);  // of probe
 void add_jog(Verb command);
 void add_run(Verb command);
 void add_send(Verb command);

@@ -47,6 +47,8 @@ public:
     const Diagnostics& errors();
     /// Ignored words, and messages.
     const std::vector<GcodeNote>& notes() const { return notes_; }
+    /// The value of #<_name> after the lines read so far; nullopt if they have not set it.
+    std::optional<double> global(std::string_view name) const { return gcode_.global(name); }
     int lines() const { return line_; }
     double share_read() const { return lines_.share_read(); }
 

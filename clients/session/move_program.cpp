@@ -110,6 +110,8 @@ std::string probes_text(const MachineConfig& machine) {
     return text;
 }
 
+}  // namespace
+
 std::expected<int, std::string> chosen_probe(const MachineConfig& machine, std::optional<int> number) {
     const std::string probes = probes_text(machine);
     if (probes.empty()) { return std::unexpected("the machine has no probe; write input { use: PROBE } in its file"); }
@@ -121,8 +123,6 @@ std::expected<int, std::string> chosen_probe(const MachineConfig& machine, std::
     if (input_numbered(machine.inputs, InputUse::Probe, chosen) != nullptr) { return chosen; }
     return std::unexpected(fmt::format("the machine has no probe {}; it has:{}", chosen, probes));
 }
-
-}  // namespace
 
 std::expected<Program, std::string> probe_program(const MachineConfig& machine, const std::vector<double>& start_mm,
                                                   const ProbeOptions& options) {

@@ -40,6 +40,9 @@ struct ProbeOptions {
     bool may_miss = false;
 };
 
+/// The number of a probe of the machine. `number`: nullopt for its only one. The error lists the machine's probes.
+std::expected<int, std::string> chosen_probe(const MachineConfig& machine, std::optional<int> number);
+
 /// Like move_program(), for a move that ends where a probe touches. Also fails without a feed, if the machine lacks the
 /// probe, or if no axis moves.
 std::expected<Program, std::string> probe_program(const MachineConfig& machine, const std::vector<double>& start_mm,

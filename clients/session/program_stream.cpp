@@ -31,7 +31,7 @@ std::expected<void, Diagnostics> ProgramStream::read_first() {
     return {};
 }
 
-std::expected<Program, Diagnostics> ProgramStream::skip_before(int line) {
+std::expected<ProgramStream::Beginning, Diagnostics> ProgramStream::skip_before(int line) {
     Program program{.name = head_.name, .axes = head_.axes, .start_mm = head_.start_mm, .blocks = {}};
     std::optional<Block> feed;  // the last move with a feed
     std::optional<Block> last;
@@ -43,14 +43,14 @@ std::expected<Program, Diagnostics> ProgramStream::skip_before(int line) {
         }
         blocks_.clear();
     }
-    modal_ = gcode_.modal();
+    const ModalState modal = gcode_.modal();
     if (gcode_.awaits_touch()) { refuse_restart_behind_touch(line); }
     if (!trouble_) { (void)read_first(); }
     if (trouble_) { return std::unexpected(Diagnostics{*trouble_}); }
     if (feed) { program.blocks.push_back(*std::move(feed)); }
     if (last) { program.blocks.push_back(*std::move(last)); }
     program.blocks.insert(program.blocks.end(), blocks_.begin(), blocks_.end());
-    return program;
+    return Beginning{std::move(program), modal};
 }
 
 void ProgramStream::refuse_restart_behind_touch(int line) {

@@ -27,10 +27,13 @@ public:
     /// Reads the first lines before anything moves. Fails if one of them has an error or cannot be read.
     std::expected<void, Diagnostics> read_first();
     /// Skips the lines before `line`. Returns a program with the last feed move and the last move before the line,
-    /// which give the state there, and the first blocks from the line on. Fails like read_first().
-    std::expected<Program, Diagnostics> skip_before(int line);
-    /// The modal state at the beginning of that line.
-    const ModalState& modal() const { return modal_; }
+    /// which give the state there, and the first blocks from the line on, and the modal state at the line's beginning.
+    /// Fails like read_first().
+    struct Beginning {
+        Program program;
+        ModalState modal;
+    };
+    std::expected<Beginning, Diagnostics> skip_before(int line);
     /// Replaces the blocks read so far by a program that starts elsewhere.
     void replace_first(const Program& program);
     /// A ProgramUpload::Feed. If a pipe stays empty for kSettleAfter, the machine comes to rest at the end of the
@@ -51,6 +54,8 @@ public:
 
     /// Why the program was cut, with the place; nullopt if it was not.
     const std::optional<Diagnostic>& trouble() const { return trouble_; }
+    /// The value of #<_name> after the lines read so far; nullopt if they have not set it.
+    std::optional<double> global(std::string_view name) const { return gcode_.global(name); }
     /// Ignored words, and messages, since the last call.
     std::vector<GcodeNote> take_notes() { return gcode_.take_notes(); }
 
@@ -71,7 +76,6 @@ private:
     LineReader lines_;
     GcodeStream gcode_;
     ProgramHead head_;
-    ModalState modal_;
     gcode::KeptValues before_;  // values before the present part
     std::uint64_t revision_;
     std::vector<Block> blocks_;  // blocks read; those from next_ on are not appended yet

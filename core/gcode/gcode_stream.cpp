@@ -74,4 +74,10 @@ gcode::KeptValues GcodeStream::values() const {
 
 ModalState GcodeStream::modal() const { return gcode::modal_of(parts_->interpreter.state(), parts_->setup); }
 
+std::optional<double> GcodeStream::global(std::string_view name) const {
+    const gcode::NamedValues& values = parts_->interpreter.state().parameters.global;
+    const auto found = values.find(name);
+    return found == values.end() ? std::nullopt : std::optional(found->second);
+}
+
 }  // namespace lockstep

@@ -45,6 +45,8 @@ public:
     /// The values and modes after the lines taken so far.
     gcode::KeptValues values() const;
     ModalState modal() const;
+    /// The value of #<_name>; nullopt if the lines so far have not set it.
+    std::optional<double> global(std::string_view name) const;
 
 private:
     struct Parts;

@@ -11,6 +11,7 @@
 #include "core/coordinator/path/coordination.hpp"
 #include "core/kinematics/kinematics.hpp"
 #include "services/documents/program_document.hpp"
+#include "services/documents/subroutines/builtin_subroutines.hpp"
 #include "services/files/text_file.hpp"
 
 namespace lockstep {
@@ -34,14 +35,15 @@ bool is_file_name(std::string_view name) {
         name, [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; });
 }
 
-/// Searches the directories in order: the program's, then the machine's.
+/// Searches the directories in order: the program's, then the machine's. A built-in subroutine is the last choice.
 std::optional<std::string> read_subroutine(const std::vector<std::filesystem::path>& directories,
                                            std::string_view name) {
     if (!is_file_name(name)) { return std::nullopt; }
     for (const std::filesystem::path& directory : directories) {
         if (auto found = read_text_file(directory / (std::string(name) + ".ngc"))) { return *std::move(found); }
     }
-    return std::nullopt;
+    const auto builtin = builtin_subroutine(name);
+    return builtin ? std::optional(std::string(*builtin)) : std::nullopt;
 }
 
 /// Returns half a step of the finest linear axis, so that a chord deviates from its curve by less than the steps do.
@@ -129,10 +131,9 @@ GcodeSetup session_setup(const MachineConfig& machine, const std::string& name) 
     constexpr std::int64_t kMaxRepeatedLines = 100'000;  // of one line, so that a sender is answered soon
     GcodeSetup setup = gcode_setup(machine, std::vector<double>(machine.axes.size()), name);
     setup.limits.repeated_lines = kMaxRepeatedLines;
-    if (machine.subroutine_directory.empty()) { return setup; }
-    setup.find_subroutine = [directory = std::filesystem::path(machine.subroutine_directory)](std::string_view called) {
-        return read_subroutine({directory}, called);
-    };
+    std::vector<std::filesystem::path> directories;
+    if (!machine.subroutine_directory.empty()) { directories.emplace_back(machine.subroutine_directory); }
+    setup.find_subroutine = [directories](std::string_view called) { return read_subroutine(directories, called); };
     return setup;
 }
 

@@ -26,18 +26,18 @@ struct ProgramFile {
 };
 
 /// Returns the interpreter's setup for a program's file. It reads a subroutine from the file name.ngc in the program's
-/// directory, or in the machine's subroutine_directory.
+/// directory, or in the machine's subroutine_directory; if there is none, a built-in one.
 GcodeSetup program_setup(const std::filesystem::path& path, const MachineConfig& machine,
                          const std::vector<double>& start_mm, GcodeSwitches switches = {},
                          const gcode::KeptValues& values = {});
 
 /// Returns the interpreter's setup for lines that come one by one. It reads subroutines from the machine's
-/// subroutine_directory.
+/// subroutine_directory; if there is none, a built-in one.
 GcodeSetup session_setup(const MachineConfig& machine, const std::string& name);
 
 /// Like load_gcode_file, but uses the machine's values that outlive programs, and also returns the ignored words and
 /// the program's messages. It reads subroutines that the text calls but does not contain from files name.ngc in its
-/// directory, or in the machine's subroutine_directory.
+/// directory, or in the machine's subroutine_directory; if there is none, a built-in one.
 std::expected<ProgramFile, Diagnostics> read_program_file(const std::filesystem::path& path,
                                                           const MachineConfig& machine,
                                                           const std::vector<double>& start_mm,

@@ -36,6 +36,14 @@ LineReader::LineReader(Descriptor file, std::string name) : file_(std::move(file
     bytes_ = is_file_ ? static_cast<std::uint64_t>(status.st_size) : 0;
 }
 
+LineReader LineReader::of_text(std::string text) {
+    LineReader reader(Descriptor(), "the text");
+    reader.bytes_ = reader.read_ = text.size();
+    reader.buffer_ = std::move(text);
+    reader.is_at_end_ = true;
+    return reader;
+}
+
 double LineReader::share_read() const {
     if (bytes_ == 0) { return 0; }
     return std::min(1.0, static_cast<double>(read_ - (buffer_.size() - at_)) / static_cast<double>(bytes_));

@@ -17,6 +17,9 @@ public:
     /// "-" is standard input. Error: why the file cannot be opened.
     static std::expected<LineReader, std::string> open(const std::string& path);
 
+    /// The lines of a text in memory.
+    static LineReader of_text(std::string text);
+
     enum class State : std::uint8_t { Line, Waits, Ends };
     struct Next {
         State state = State::Ends;

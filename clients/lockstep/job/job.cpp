@@ -206,8 +206,15 @@ ExitCode end(Session& session, const Job& job, JobResult result, JobWatch& watch
     add_final_positions(session, report);
     watch.print_events();
     if (result == JobResult::Done) { await_kept_values(session, job, output); }
+    std::string conclusion;
+    if (result == JobResult::Done && job.conclude) {
+        auto concluded = job.conclude(report);
+        if (!concluded) { return output.fail(concluded.error()); }
+        conclusion = *std::move(concluded);
+    }
     output.report(report);
     print_end(session, job, report, output);
+    if (!conclusion.empty()) { output.print(wrapped(conclusion, 80, "  ")); }
     return result == JobResult::Done ? kExitDone : kExitFailed;
 }
 

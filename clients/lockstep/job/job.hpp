@@ -1,6 +1,8 @@
 // Runs a job from its command to its end, for home, move and run.
 #pragma once
 
+#include <expected>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -8,6 +10,7 @@
 #include "clients/session/session.hpp"
 #include "clients/text/output.hpp"
 #include "core/program.hpp"
+#include "idl/proto/report.pb.h"
 
 namespace lockstep {
 
@@ -25,6 +28,8 @@ struct Job {
     bool probes = false;  // `program` ends with a probing move
     bool detach = false;  // return when the job has begun
     bool take = false;    // take the lease even from another writer
+    /// run: adds the result of a program that was run to its end to the report, and returns it as text.
+    std::function<std::expected<std::string, Failure>(proto::RunReport& report)> conclude = {};
 };
 
 /// Begins the job, shows its progress, waits for its end and reports. SIGINT and SIGTERM stop the machine on its path;

@@ -15,6 +15,9 @@ struct ProbeVerbOptions : LiveOptions {
 
 ExitCode probe(const ProbeVerbOptions& options) {
     Output output(options.json);
+    if (options.probe.move.targets.empty()) {
+        return output.fail(bad_input("name where the move ends, such as Z=-10; see: lockstep probe --help"));
+    }
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return output.fail(machine.error()); }
     auto session = Session::open(*machine, Purpose::Command);
@@ -35,14 +38,15 @@ ExitCode probe(const ProbeVerbOptions& options) {
 }  // namespace
 
 void add_probe(Verb command) {
-    const Verb verb = command.add_verb("probe",
-                                       "move until a probe touches, and print where every axis was at the touch\n"
-                                       "The axes move in a straight line and come to rest behind the touch.");
+    const Verb verb =
+        command.add_verb("probe",
+                         "move until a probe touches, and print where every axis was at the touch\n"
+                         "The axes move in a straight line and come to rest behind the touch. The verbs below touch "
+                         "several times, and compute what they measure.");
     const auto options = std::make_shared<ProbeVerbOptions>();
     verb.add_option("targets", options->probe.move.targets,
-                    "AXIS=MM, e.g. Z=-10: where the move ends without a touch; axes that are not named do not move")
-        .required();
-    verb.add_option("--feed", options->probe.move.feed_mm_min, "speed along the line, mm/min").required();
+                    "AXIS=MM, e.g. Z=-10: where the move ends without a touch; axes that are not named do not move");
+    verb.add_option("--feed", options->probe.move.feed_mm_min, "speed along the line, mm/min; needed");
     verb.add_flag("--relative", options->probe.move.relative,
                   "targets are distances from each axis's present position");
     verb.add_option("--probe", options->probe.probe, "the probe's number; default: the machine's only one")
@@ -54,6 +58,7 @@ void add_probe(Verb command) {
     verb.footer(kInterrupted + footer("  lockstep probe Z=-10 --feed 60\n  lockstep probe Z=-10 --relative --feed 60\n"
                                       "  lockstep probe Z=2 --relative --feed 30 --away\n"));
     verb.action([options] { return probe(*options); });
+    add_measurements(verb);
 }
 
 }  // namespace lockstep

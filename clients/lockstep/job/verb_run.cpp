@@ -123,7 +123,7 @@ std::expected<void, Failure> read_first(const RunOptions& options, const Machine
     }
     const auto beginning = stream.skip_before(options.restart.from_line);
     if (!beginning) { return std::unexpected(bad_file(options.file, beginning.error())); }
-    const auto rest = rest_of(*beginning, stream.modal(), options.restart, machine, stands_mm);
+    const auto rest = rest_of(beginning->program, beginning->modal, options.restart, machine, stands_mm);
     if (!rest) { return std::unexpected(bad_input("--from-line: " + rest.error())); }
     print_approach(options, machine, *rest, output);
     stream.replace_first(rest->program);

@@ -98,11 +98,11 @@ TEST_F(Reading, GoesOnFromALineWithTheMovesBeforeIt) {
     ProgramStream stream = stream_of(file(many_lines(5000)));
     const auto beginning = stream.skip_before(3000);
     ASSERT_TRUE(beginning);
-    ASSERT_GE(beginning->blocks.size(), 3u);
-    EXPECT_EQ(beginning->blocks[1].line, 2999);
-    EXPECT_EQ(beginning->blocks[2].line, 3000);
-    ASSERT_TRUE(stream.modal().feed_mm_min);
-    EXPECT_EQ(*stream.modal().feed_mm_min, 600);
+    ASSERT_GE(beginning->program.blocks.size(), 3u);
+    EXPECT_EQ(beginning->program.blocks[1].line, 2999);
+    EXPECT_EQ(beginning->program.blocks[2].line, 3000);
+    ASSERT_TRUE(beginning->modal.feed_mm_min);
+    EXPECT_EQ(*beginning->modal.feed_mm_min, 600);
 }
 
 TEST_F(Reading, APipeThatIsSilentSettles) {
