@@ -10,17 +10,20 @@
 // - Coordinate systems, offsets and the tool table are inputs, and are returned as the program leaves them.
 // - G38.2 to G38.5 have a P, the number of the probe. Text that is read without a machine takes the touch to be at the
 //   end of the move.
+// - With a height map, Z of each place is higher by the surface's height there. Moves are cut to follow it.
 // - Words for devices that the machine does not have are refused, or become events on the path, as `unassigned` says.
 #pragma once
 
 #include <cstdint>
 #include <expected>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/device/input_config.hpp"
+#include "core/gcode/curves/height_map.hpp"
 #include "core/gcode/kept_values.hpp"
 #include "core/gcode/motion.hpp"
 #include "core/gcode/setup.hpp"
@@ -62,9 +65,10 @@ struct GcodeSpinUp {
 };
 
 struct GcodeSwitches {
-    bool pause_at_m1 = false;        // optional stop
-    bool skip_deletable = true;      // block delete: lines that begin with / are not run
-    bool ignore_unassigned = false;  // skips words for devices that the machine does not have
+    bool pause_at_m1 = false;                            // optional stop
+    bool skip_deletable = true;                          // block delete: lines that begin with / are not run
+    bool ignore_unassigned = false;                      // skips words for devices that the machine does not have
+    std::shared_ptr<const HeightMap> heights = nullptr;  // Z follows them; null: the surface is level
 };
 
 struct GcodeSetup {

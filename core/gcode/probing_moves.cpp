@@ -41,6 +41,10 @@ const InputConfig* ProgramBuilder::probe_numbered(std::optional<int> number) {
 void ProgramBuilder::probe(const Probing& probing) {
     const InputConfig* const input = probe_numbered(probing.probe);
     if (input == nullptr) { return; }
+    if (setup_.switches.heights) {
+        return fail(
+            "a program that follows a height map cannot probe; run it without the map, or remove the probing move");
+    }
     probed_from_ = position_;
     std::vector<double> to = position_;
     for (std::size_t i = 0; i < to.size(); ++i) {

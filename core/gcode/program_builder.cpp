@@ -17,6 +17,30 @@ constexpr double kLeastArc_mm = 1e-5;
 constexpr int kExactPathWord = 610;  // values of Modal::path_mode
 constexpr int kExactStopWord = 611;
 
+constexpr std::size_t kX = 0;  // in kAxisLetters
+constexpr std::size_t kY = 1;
+constexpr std::size_t kZ = 2;
+
+/// How much higher Z is at this place because of the height map.
+double height_at(const GcodeSetup& setup, const Point& place) {
+    const auto& heights = setup.switches.heights;
+    return heights ? heights->height_mm(place[kX], place[kY]) : 0;
+}
+
+/// Why a move with a feed cannot follow the height map: its depth beside the map is not known. Empty if it can.
+std::string why_not_bent(const GcodeSetup& setup, const Point& from, const Point& to) {
+    const auto& heights = setup.switches.heights;
+    if (!heights) { return {}; }
+    for (const char letter : {'X', 'Y', 'Z'}) {
+        if (axis_letters(setup).find(letter) != std::string::npos) { continue; }
+        return std::string("a height map needs axes X, Y and Z, but the machine has no axis ") + letter;
+    }
+    const bool moves_beside = from[kX] != to[kX] || from[kY] != to[kY];
+    if (!moves_beside || (heights->has(from[kX], from[kY]) && heights->has(to[kX], to[kY]))) { return {}; }
+    return "this move leaves the height map, which has " + heights->extent_text() +
+           " (machine coordinates); measure a greater surface, or move the work";
+}
+
 Point place_in(const GcodeSetup& setup, double GcodeAxis::*coordinate) {
     Point place{};
     const auto places = axis_places(setup);
@@ -66,9 +90,11 @@ Setup interpreter_setup(const GcodeSetup& setup, std::string_view text) {
             .find_subroutine = setup.find_subroutine};
 }
 
+/// With a height map the program's places are those of a level surface.
 State start_state(const GcodeSetup& setup) {
     State state;
     state.machine = place_in(setup, &GcodeAxis::start_mm);
+    state.machine[kZ] -= height_at(setup, state.machine);
     set_kept_values(state, setup.values, park_place(setup));
     return state;
 }
@@ -155,7 +181,7 @@ double ProgramBuilder::within_travel(std::size_t i, double mm) {
 
 /// The shape of an arc in the plane of two of the setup's axes. Returns nullopt if the arc must be cut into chords.
 std::optional<ArcShape> ProgramBuilder::shape_of(const Arc& arc) const {
-    if (setup_.curves_as_chords) { return std::nullopt; }
+    if (setup_.curves_as_chords || setup_.switches.heights) { return std::nullopt; }
     const auto normal = static_cast<std::size_t>(std::ranges::find(arc.axis, 1.0) - arc.axis.begin());
     if (normal >= arc.axis.size()) { return std::nullopt; }
     const std::size_t first = (normal + 1) % 3;
@@ -177,7 +203,7 @@ std::optional<ArcShape> ProgramBuilder::shape_of(const Arc& arc) const {
 
 void ProgramBuilder::spline(const Spline& spline) {
     const Point from = at_;
-    if (setup_.curves_as_chords) {
+    if (setup_.curves_as_chords || setup_.switches.heights) {
         return cut(spline, from, setup_.chord_tolerance_mm,
                    [&](const Point& target) { move(target, spline.feed, false); });
     }
@@ -221,18 +247,32 @@ void ProgramBuilder::arc(const Arc& arc) {
 }
 
 void ProgramBuilder::move(const Point& target, double feed, bool rapid) {
-    std::vector<double>& to = next_position_;
-    to = position_;
-    for (std::size_t i = 0; i < to.size(); ++i) {
-        if (places_[i] && target[*places_[i]] != at_[*places_[i]]) { to[i] = within_travel(i, target[*places_[i]]); }
+    const auto& heights = setup_.switches.heights;
+    if (const std::string why = rapid ? "" : why_not_bent(setup_, at_, target); !why.empty()) {
+        at_ = target;
+        if (outside_.insert(places_.size()).second) { fail(why); }
+        return;
     }
-    at_ = target;
-    if (to == position_) { return; }
-    ProgramMove move = move_to(to, feed, {});
-    if (rapid) { move.feed_mm_s = 0; }
-    move.rapid = rapid;
-    append(std::move(move));
-    position_.swap(to);
+    const auto straight = [&](const Point& end) {
+        std::vector<double>& to = next_position_;
+        to = position_;
+        const double height = height_at(setup_, end);
+        const bool is_lifted = height != height_at(setup_, at_);
+        for (std::size_t i = 0; i < to.size(); ++i) {
+            if (!places_[i]) { continue; }
+            const std::size_t letter = *places_[i];
+            if (end[letter] == at_[letter] && !(letter == kZ && is_lifted)) { continue; }
+            to[i] = within_travel(i, end[letter] + (letter == kZ ? height : 0));
+        }
+        at_ = end;
+        if (to == position_) { return; }
+        ProgramMove move = move_to(to, feed, {});
+        if (rapid) { move.feed_mm_s = 0; }
+        move.rapid = rapid;
+        append(std::move(move));
+        position_.swap(to);
+    };
+    heights ? heights->cut(Point(at_), target, setup_.chord_tolerance_mm, straight) : straight(target);
 }
 
 /// Makes a move with the present modes. `feed` is per minute.

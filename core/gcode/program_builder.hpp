@@ -114,7 +114,7 @@ private:
     std::vector<GcodeError> errors_;
     bool is_full_ = false;
     int line_ = 0;
-    std::set<std::size_t> outside_;      // axes named in this line's errors
+    std::set<std::size_t> outside_;      // axes named in this line's errors; their number: the height map
     std::uint32_t events_together_ = 0;  // events since the last block of another kind
     std::string message_;                // the last one since the last pause
     std::string remark_;                 // the last comment, on line remark_line_

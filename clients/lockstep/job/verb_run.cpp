@@ -1,6 +1,7 @@
 // lockstep run
 #include <fmt/format.h>
 
+#include "clients/lockstep/height_option.hpp"
 #include "clients/lockstep/job/approach_text.hpp"
 #include "clients/lockstep/job/confirm.hpp"
 #include "clients/lockstep/job/job.hpp"
@@ -24,6 +25,7 @@ namespace {
 struct RunOptions : LiveOptions {
     std::string file;
     GcodeSwitches switches;
+    std::string height_map;  // a file; empty: the surface is level
     bool dry_run = false;
     RestartOptions restart;
     std::string started_at;  // the machine's position when the program's first run began
@@ -200,7 +202,7 @@ ExitCode plan_stream(const RunOptions& options) {
     return report_dry_run(text->head().name, fmt::format("{} lines", text->lines()), *planned_s, {}, output);
 }
 
-ExitCode run(const RunOptions& options) {
+ExitCode run_file(const RunOptions& options) {
     if (is_streamed(options)) { return run_stream(options); }
     if (is_long_program(options.file) && !options.is_restart()) { return plan_stream(options); }
     Output output(options.json);
@@ -235,6 +237,13 @@ ExitCode run(const RunOptions& options) {
                   .take = options.take};
     if (const auto confirmed = confirm(options, output); !confirmed) { return output.fail(confirmed.error()); }
     return run_job(start->session, job, output);
+}
+
+ExitCode run(RunOptions& options) {
+    if (auto heights = read_heights(options.height_map, options.switches); !heights) {
+        return Output(options.json).fail(heights.error());
+    }
+    return run_file(options);
 }
 
 void add_restart_options(Verb verb, RunOptions& options) {
@@ -280,9 +289,11 @@ void add_run(Verb command) {
     verb.add_flag("--optional-stop", options->switches.pause_at_m1, "also pause at M1");
     verb.add_flag("--ignore-unassigned", options->switches.ignore_unassigned,
                   "ignore words for devices that the machine does not have, instead of refusing them");
+    add_height_map(verb, options->height_map);
     add_take(verb, *options);
     add_live_options(verb, *options);
-    verb.footer(kInterrupted + footer("  lockstep run plate.gcode\n  lockstep run plate.gcode --dry-run\n"
+    verb.footer(kInterrupted + footer("  lockstep run plate.gcode\n  lockstep run plate.gcode --height-map "
+                                      "heights.csv\n  lockstep run plate.gcode --dry-run\n"
                                       "  lockstep run plate.gcode --from-line 120 --dry-run\n"
                                       "  lockstep run plate.gcode --from-line 120 --lift Z=40 --yes\n"
                                       "  lockstep run plate.gcode --detach\n  generate-moves | lockstep run -\n  "

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "clients/lockstep/height_option.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/planning/program_text.hpp"
 #include "clients/planning/read_ahead.hpp"
@@ -36,6 +37,7 @@ struct ReadingSetup {
     MachineConfig machine;
     std::vector<double> start_mm;
     gcode::KeptValues values;
+    GcodeSwitches switches;
 };
 
 std::expected<ReadingSetup, Failure> reading_setup(const ProgramOptions& options) {
@@ -45,7 +47,11 @@ std::expected<ReadingSetup, Failure> reading_setup(const ProgramOptions& options
     if (!places) { return std::unexpected(bad_input("--start: " + places.error())); }
     auto values = values_of(options, machine->config);
     if (!values) { return std::unexpected(values.error()); }
-    return ReadingSetup{std::move(machine->config), *std::move(places), *std::move(values)};
+    GcodeSwitches switches = options.switches;
+    if (auto heights = read_heights(options.height_map, switches); !heights) {
+        return std::unexpected(heights.error());
+    }
+    return ReadingSetup{std::move(machine->config), *std::move(places), *std::move(values), std::move(switches)};
 }
 
 Failure not_planned(const std::string& file, const PlanError& error) {
@@ -114,6 +120,7 @@ void add_program_options(Verb verb, ProgramOptions& options) {
                     "a file of offsets and tools; default: those that the coordinator keeps on this host, if any");
     verb.add_flag("--ignore-unassigned", options.switches.ignore_unassigned,
                   "ignore words for devices that the machine does not have, instead of refusing them");
+    add_height_map(verb, options.height_map);
     add_json(verb, options.json);
 }
 
@@ -127,7 +134,7 @@ std::expected<ProgramInput, Failure> read_program(const ProgramOptions& options,
     if (const auto text = read_text_file(file); !text) { return std::unexpected(bad_file(file, {text.error()})); }
     auto setup = reading_setup(options);
     if (!setup) { return std::unexpected(setup.error()); }
-    auto read = read_program_file(file, setup->machine, setup->start_mm, options.switches, setup->values);
+    auto read = read_program_file(file, setup->machine, setup->start_mm, setup->switches, setup->values);
     if (!read) { return std::unexpected(bad_file(file, read.error())); }
     auto plan =
         plan_program(setup->machine, read->reading.program, on_setup ? on_setup(setup->machine) : OnPlannedFrame{});
@@ -146,7 +153,7 @@ std::expected<PlannedFile, Failure> plan_file(const ProgramOptions& options, Out
     if (!setup) { return std::unexpected(setup.error()); }
     auto lines = LineReader::open(options.file);
     if (!lines) { return std::unexpected(bad_file(options.file, {{.message = lines.error()}})); }
-    GcodeSetup reading = program_setup(options.file, setup->machine, setup->start_mm, options.switches, setup->values);
+    GcodeSetup reading = program_setup(options.file, setup->machine, setup->start_mm, setup->switches, setup->values);
     const auto text = std::make_shared<ProgramText>(*std::move(lines), reading, *whole);
     auto plan = plan_as_read(setup->machine, text, options.file, output, on_setup);
     if (!whole->empty() && (!plan || !text->errors().empty() || text->passed() > kMaxProgramBlocks)) {

@@ -20,8 +20,9 @@ namespace lockstep {
 struct ProgramOptions {
     std::string file;
     std::string machine_file;
-    std::string start;   // "X=10,Y=5"; other axes are at their park positions, as after homing
-    std::string values;  // a file of offsets and tools; empty: the file of the coordinator on this host, if any
+    std::string start;       // "X=10,Y=5"; other axes are at their park positions, as after homing
+    std::string values;      // a file of offsets and tools; empty: the file of the coordinator on this host, if any
+    std::string height_map;  // a file; empty: the surface is level
     GcodeSwitches switches;
     bool json = false;
 };

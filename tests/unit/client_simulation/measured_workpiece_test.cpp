@@ -7,6 +7,7 @@
 #include "clients/session/measuring/measuring_program.hpp"
 #include "clients/simulation/simulate.hpp"
 #include "core/number_text.hpp"
+#include "services/documents/heights/height_file.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/documents/program_file.hpp"
 #include "services/record/sinks.hpp"
@@ -137,6 +138,71 @@ TEST_F(MeasuredWorkpiece, HasTheHeightsOfATiltedAndWavedTop) {
         EXPECT_NEAR(point.z_mm(), Workpiece::top_mm(block, point.x_mm(), point.y_mm()), within_mm + slope * slope / 2)
             << point.x_mm() << " " << point.y_mm();
     }
+}
+
+/// A crooked plate is measured, and a program is bent by its heights.
+class LevelledPlate : public MeasuredWorkpiece {
+protected:
+    static constexpr double kDepth_mm = 0.1;
+
+    LevelledPlate() {
+        WorkBlock& block = machine.workpiece->blocks[0];
+        block.bores.clear();
+        block.rise_x = 0.01;
+        block.rise_y = -0.004;
+        block.wave_mm = 0.1;
+    }
+    HeightMap measured_heights() {
+        MeasureOptions options = with(MeasureKind::Surface, {"X=70:130", "Y=50:110"});
+        options.spacing_mm = 10;
+        options.down_mm = 12;
+        const auto surface = measure(options, 100, 80, 40);
+        first_z_mm_ = surface.value().points(0).z_mm();
+        return parse_height_map(csv_of(*surface)).value();
+    }
+    /// Cuts a line, a circle and a line across the plate.
+    GcodeReading engraving(const std::optional<HeightMap>& heights) {
+        GcodeSetup setup = gcode_setup(machine, parked_mm(machine), "engraving");
+        if (heights) { setup.switches.heights = std::make_shared<const HeightMap>(*heights); }
+        const std::string depth = number_text(first_z_mm_ - kDepth_mm);
+        return read_gcode("G21 G90\nG0 X72 Y52\nG1 Z" + depth + " F600\nX128 Y108\nX120 Y80\nG2 I-20 J0\nG1 X75 Y105\n",
+                          setup)
+            .value();
+    }
+    /// The greatest error of the depth of any cut.
+    double error_mm(const Program& program) const {
+        const WorkBlock& block = machine.workpiece->blocks[0];
+        std::vector<double> from = program.start_mm;
+        double greatest = 0;
+        bool cuts = false;
+        for (const Block& one : program.blocks) {
+            const auto* move = std::get_if<ProgramMove>(&one.action);
+            if (move == nullptr) { continue; }
+            for (int i = 0; cuts && i <= 10; ++i) {
+                const auto at = [&](std::size_t axis) {
+                    return from[axis] + i * 0.1 * (move->target_mm[axis] - from[axis]);
+                };
+                greatest = std::max(greatest, std::abs(Workpiece::top_mm(block, at(0), at(1)) - at(2) - kDepth_mm));
+            }
+            cuts = cuts || !move->rapid;
+            from = move->target_mm;
+        }
+        return greatest;
+    }
+
+private:
+    double first_z_mm_ = 0;
+};
+
+TEST_F(LevelledPlate, IsCutToAnEvenDepth) {
+    const HeightMap heights = measured_heights();
+    const GcodeReading bent = engraving(heights);
+    EXPECT_GT(error_mm(engraving(std::nullopt).program), 0.3) << "the plate is crooked";
+    EXPECT_LT(error_mm(bent.program), 0.025) << "bilinear between points 10 mm apart, and the steps of the touches";
+    NoSink sink;
+    const auto run = simulate(machine, bent.program, sink);
+    ASSERT_TRUE(run);
+    EXPECT_EQ(run->outcome, JobOutcome::Done) << run->trouble;
 }
 
 }  // namespace
