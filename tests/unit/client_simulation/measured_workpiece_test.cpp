@@ -47,7 +47,11 @@ protected:
             options, *program, [&](auto name) { return text.global(name); }, touches_z);
     }
     MeasureOptions with(MeasureKind kind, std::vector<std::string> words = {}) const {
-        return {.kind = kind, .words = std::move(words), .feed_mm_min = 60, .tip_mm = machine.workpiece->tip_mm};
+        return {.kind = kind,
+                .words = std::move(words),
+                .feed_mm_min = 60,
+                .tip_mm = machine.workpiece->tip_mm,
+                .probe = 0};
     }
 };
 

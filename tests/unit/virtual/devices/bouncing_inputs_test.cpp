@@ -68,7 +68,7 @@ TEST_P(BouncingInputs, AProbingMoveEndsAtTheFirstTouch) {
     vm.set_input(kTip, true);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
     EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
-    ASSERT_TRUE(vm.state()->probe && vm.state()->probe->touched);
+    ASSERT_TRUE(vm.state()->probe && vm.state()->probe->touched());
     const Ticks late = vm.state()->probe->tick - touched;
     EXPECT_GE(late, Ticks{});
     EXPECT_LE(late, GetParam().is_seen() ? Ticks{2} + ms(GetParam().bounce_ms) : ms(GetParam().bounce_ms));

@@ -22,7 +22,7 @@ std::optional<BacklashConfig> draw_play(Draw& draw, const AxisConfig& axis, doub
     return backlash;
 }
 
-bool may_have_play(const AxisConfig& axis) { return !axis.homing.in_place && axis.homing.input.empty(); }
+bool may_have_play(const AxisConfig& axis) { return axis.homing.way == HomingWay::BySwitch; }
 
 }  // namespace
 
