@@ -113,7 +113,8 @@ TEST(MachineReference, EveryRangeStatedIsTheOneChecked) {
         const double most = std::stod(range[2]);
         EXPECT_FALSE(is_refused(key, number(key, least))) << key.name << " at its least, " << range[0];
         EXPECT_FALSE(is_refused(key, number(key, most))) << key.name << " at its most, " << range[0];
-        EXPECT_TRUE(is_refused(key, number(key, is_whole(key) || least == 0 ? least - 1 : least * 0.99)))
+        EXPECT_TRUE(
+            is_refused(key, number(key, is_whole(key) || least == 0 ? least - 1 : least - std::abs(least) * 0.01)))
             << key.name << " below " << range[0];
         EXPECT_TRUE(is_refused(key, number(key, is_whole(key) ? most + 1 : most * 1.01)))
             << key.name << " above " << range[0];
