@@ -19,7 +19,7 @@ public:
     explicit SessionPort(Session& session) : session_(session) {}
     ProgramSender& open(const ProgramHead& head) override { return session_.upload().open(head); }
     void close() override { session_.upload().close(); }
-    bool is_overdue() override { return session_.is_upload_overdue(); }
+    bool is_overdue() override { return is_upload_overdue(session_); }
     CommandStep follow(CommandTracker& tracker) override { return session_.follow(tracker); }
 
 private:

@@ -78,8 +78,7 @@ public:
     /// The program to send. receive() sends what is due.
     ProgramUpload& upload() { return upload_; }
     const ProgramUpload& upload() const { return upload_; }
-    /// See ProgramUpload::is_overdue.
-    bool is_upload_overdue() { return upload_.is_overdue(owner_.sight(), owner_.running_time()); }
+
     // One writer at a time may move and change the machine: while a writer holds the lease, only its commands are
     // accepted. While nobody holds it, the commands of every client are accepted.
     /// receive() keeps the lease: a client that does not receive for kLeaseSilence_ms loses it.
@@ -116,5 +115,10 @@ private:
     std::uint64_t sequence_ = 0;              // of the last command
     std::map<std::uint64_t, Reply> replies_;  // to this client, not read yet
 };
+
+/// See ProgramUpload::is_overdue.
+inline bool is_upload_overdue(Session& session) {
+    return session.upload().is_overdue(session.owner().sight(), session.owner().running_time());
+}
 
 }  // namespace lockstep

@@ -47,7 +47,7 @@ bool is_requested(const StopSignal* stop) { return stop != nullptr && stop->requ
 std::expected<void, Failure> await_parts(Session& session, const std::function<bool()>& done, const StopSignal* stop) {
     while (!done()) {
         if (is_requested(stop)) { return std::unexpected(interrupted()); }
-        if (session.is_upload_overdue()) { return std::unexpected(silence(session)); }
+        if (is_upload_overdue(session)) { return std::unexpected(silence(session)); }
         session.receive(50ms);
         if (const auto& refusal = session.upload().sender()->refusal()) {
             return std::unexpected(failed(refusal->text));

@@ -62,7 +62,7 @@ bool RunTask::poll(Session& session) {
         command_ = std::make_unique<CommandTask>(Command{.kind = CommandKind::Run, .program = id_}, done);
         return false;
     }
-    return session.is_upload_overdue() && end(std::unexpected(unanswered(silence_of(session))));
+    return is_upload_overdue(session) && end(std::unexpected(unanswered(silence_of(session))));
 }
 
 bool ValuesTask::begin(Session& session) {
@@ -86,7 +86,7 @@ bool ValuesTask::poll(Session& session) {
     if (sender.refusal()) { return end(std::unexpected(refused_by(*sender.refusal()))); }
     if (sender.is_done() && session.values().is_kept(revision_)) { return end(Accepted{}); }
     if (!sender.is_done()) {
-        return session.is_upload_overdue() && end(std::unexpected(unanswered(silence_of(session))));
+        return is_upload_overdue(session) && end(std::unexpected(unanswered(silence_of(session))));
     }
     return session.owner().running_time() - *sent_ > kDiskPatience &&
            end(std::unexpected(unanswered(
