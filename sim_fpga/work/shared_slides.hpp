@@ -31,7 +31,7 @@ private:
     };
     SharedSlides(std::shared_ptr<std::int64_t[]> words, std::vector<Slide> slides)
         : words_(std::move(words)), slides_(std::move(slides)) {}
-    std::atomic_ref<std::int64_t> word(std::size_t motor) const { return std::atomic_ref(words_[motor]); }
+    std::atomic_ref<std::int64_t> word(std::size_t motor) const { return std::atomic_ref(words_.get()[motor]); }
 
     std::shared_ptr<std::int64_t[]> words_;
     std::vector<Slide> slides_;

@@ -32,6 +32,7 @@ WorkPlace WorkContacts::place_of(const std::vector<double>& motors_mm) const {
 }
 
 void WorkContacts::follow(const std::vector<double>& motors_mm, const std::function<void(std::size_t, bool)>& set) {
+    if (contacts_.empty()) { return; }
     place_ = place_of(motors_mm);
     for (Contact& contact : contacts_) {
         contact.gap_mm = work_.gap_mm(contact.probe, place_);

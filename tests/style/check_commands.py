@@ -50,7 +50,7 @@ def breach(program, words):
     """The error in a command line; None if there is none."""
     path = [str(program)]
     text = help_of(*path)
-    while words and not words[0].startswith("-") and verbs_in(text):
+    while words and re.match("[^-=]+$", words[0]) and verbs_in(text):  # X=10 is a value
         if words[0] not in verbs_in(text):
             return f"{program.name} has no command {words[0]}"
         path.append(words.pop(0))

@@ -90,7 +90,9 @@ std::vector<std::string> processes_of(const Asked& asked, const MachineConfig& m
 std::expected<Program, Diagnostics> program_of(const Asked::Run& run, const fs::path& folder,
                                                const MachineConfig& machine, const std::vector<double>& start_mm) {
     if (run.has_file()) { return load_gcode_file(folder / run.file(), machine, start_mm); }
-    auto program = parse_gcode(run.gcode(), gcode_setup(machine, start_mm, "gcode"));
+    GcodeSetup setup = gcode_setup(machine, start_mm, "gcode");
+    setup.find_subroutine = session_setup(machine, "gcode").find_subroutine;
+    auto program = parse_gcode(run.gcode(), setup);
     if (program) { return *std::move(program); }
     Diagnostics errors;
     for (const GcodeError& error : program.error()) { errors.push_back({error.line, error.column, error.message}); }
