@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <memory>
+#include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -41,6 +43,12 @@ public:
     T& renew_back(Make&& make) {
         T& place = next();
         return place = make(std::move(place));
+    }
+    /// Adds what `make()` returns as the last element, made in its place. For types that allocate no memory.
+    template <typename Make>
+    T& make_back(Make&& make) {
+        static_assert(std::is_trivially_destructible_v<T>);
+        return *::new (static_cast<void*>(&next())) T(make());
     }
     void pop_front() {
         check(!empty(), "an element that is removed is there");

@@ -37,7 +37,12 @@ void SpeedWindow::add(const Quadratic& piece) {
 }
 
 void SpeedWindow::add_rows(const Quadratic& piece) {
-    pieces_.push_back({.shape = piece}).shape.moving = moving_rows(piece);
+    pieces_.make_back([&] {
+        JoinedPiece made;
+        made.shape = piece;
+        made.shape.moving = moving_rows(piece);
+        return made;
+    });
     if (is_open_) { close_piece(pieces_.size() - 2); }
     is_open_ = true;
     if (is_due()) { look_ahead(); }

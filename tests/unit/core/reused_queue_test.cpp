@@ -53,6 +53,20 @@ TEST(ReusedQueue, AnElementThatIsMadeAgainTakesMemoryAndNoOldValue) {
     EXPECT_EQ(note.text.data(), memory);
 }
 
+TEST(ReusedQueue, AnElementThatIsMadeInItsPlaceHasNoOldValue) {
+    struct Pair {
+        int first = 1;
+        int second = 2;
+    };
+    ReusedQueue<Pair> pairs;
+    pairs.push_back({7, 8});
+    pairs.pop_back();
+    const Pair& pair = pairs.make_back([] { return Pair{.first = 3}; });
+    EXPECT_EQ(pair.first, 3);
+    EXPECT_EQ(pair.second, 2) << "a field that is not named has its default";
+    EXPECT_EQ(pairs.size(), 1u);
+}
+
 TEST(ReusedQueue, AnElementKeepsItsAddressWhileOthersAreAddedAndRemoved) {
     ReusedQueue<int> queue;
     queue.push_back(1);
