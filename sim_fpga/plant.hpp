@@ -97,7 +97,7 @@ public:
         };
         return {read(&PlantInputs::limit_min), read(&PlantInputs::limit_max), read(&PlantInputs::home)};
     }
-    /// What else is wired to the device's pins.
+    /// The bouncing contacts and the spindles at the device's pins.
     Wiring& wiring() { return wiring_; }
     const Wiring& wiring() const { return wiring_; }
 
@@ -110,8 +110,7 @@ public:
         if (switches.limit_max) { pins = limit_max_.close(pins); }
         if (switches.home) { pins = home_.close(pins); }
         const bool touches = probe_.toward_min ? slide_ <= probe_.at : slide_ >= probe_.at;
-        const std::uint32_t levels = touches ? probe_.wires.close(pins) : pins;
-        return (levels | contacts_.high) & ~contacts_.low;
+        return contacts_.close(touches ? probe_.wires.close(pins) : pins);
     }
 
 private:
@@ -157,11 +156,7 @@ private:
         bool toward_min = false;
     };
     Probe probe_;
-    struct Contacts {
-        std::uint32_t high = 0;  // pins that are high because something touches
-        std::uint32_t low = 0;
-    };
-    Contacts contacts_;
+    Wires contacts_;  // of contacts that are closed now
     std::uint32_t others_ = 0;
     Wiring wiring_;
 

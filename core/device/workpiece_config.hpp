@@ -1,4 +1,4 @@
-// What stands in a simulated machine for its probes to touch.
+// The solids that the probes of a simulated machine touch.
 #pragma once
 
 #include <vector>

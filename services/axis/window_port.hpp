@@ -14,7 +14,7 @@
 #include "services/axis/device_driver.hpp"
 #include "services/axis/device_port.hpp"
 #include "sim_fpga/device.hpp"
-#include "sim_fpga/work/touched_device.hpp"
+#include "sim_fpga/workpiece/touched_device.hpp"
 
 namespace lockstep {
 

@@ -19,7 +19,7 @@
 #include "services/runtime/log.hpp"
 #include "services/runtime/periodic.hpp"
 #include "services/runtime/service_options.hpp"
-#include "sim_fpga/work/touched_device.hpp"
+#include "sim_fpga/workpiece/touched_device.hpp"
 
 namespace lockstep {
 namespace {

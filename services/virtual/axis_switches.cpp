@@ -26,13 +26,9 @@ void AxisSwitches::add(std::size_t input, std::size_t axis, const AxisConfig& co
         {.input = input, .axis = axis, .at_steps = at_mm * config.steps_per_mm, .toward_min = toward_min});
 }
 
-void AxisSwitches::follow(const std::vector<double>& motors_mm, const std::function<void(std::size_t, bool)>& set) {
-    std::vector<Position> motors;
-    for (std::size_t m = 0; m < motors_mm.size(); ++m) {
-        motors.push_back(Position::steps(to_steps(kinematics_.motors()[m], motors_mm[m])));
-    }
+void AxisSwitches::follow(std::span<const Position> slides, const std::function<void(std::size_t, bool)>& set) {
     for (Switch& one : switches_) {
-        const double at = one.axis_steps = kinematics_.axis_steps(one.axis, motors);
+        const double at = one.axis_steps = kinematics_.axis_steps(one.axis, slides);
         const bool is_closed = one.toward_min ? at <= one.at_steps : at >= one.at_steps;
         if (is_closed != one.is_closed) { set(one.input, is_closed); }
         one.is_closed = is_closed;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "core/kinematics/kinematics.hpp"
@@ -16,8 +17,8 @@ public:
     explicit AxisSwitches(const MachineConfig& machine);
 
     bool none() const { return switches_.empty(); }
-    /// Calls set(input, closed) for each switch that changes while the slides of the motors are at these places, in mm.
-    void follow(const std::vector<double>& motors_mm, const std::function<void(std::size_t, bool)>& set);
+    /// Calls set(input, closed) for each switch that changes while the slides of the motors are at these places.
+    void follow(std::span<const Position> slides, const std::function<void(std::size_t, bool)>& set);
     /// Call it after each interval of motion. Returns whether a switch may change in the next one, in which an axis
     /// goes at most three times as far.
     bool may_change_next();

@@ -96,13 +96,13 @@ void VirtualDevices::follow_switches(Tick now) {
 }
 
 void VirtualDevices::follow_switches_at(Tick now) {
-    std::vector<double> motors_mm;
+    std::vector<Position> slides;
     for (std::size_t i = 0; i < devices_.size(); ++i) {
         advance(i, now);
-        motors_mm.push_back((*this)[i].plant().position_mm());
+        slides.push_back(Position::steps(to_steps(motors_[i], (*this)[i].plant().position_mm())));
     }
-    switches_.follow(motors_mm, [&](std::size_t input, bool closed) { set_input(input, closed, now); });
-    work_.follow(motors_mm, [&](std::size_t input, bool closed) {
+    switches_.follow(slides, [&](std::size_t input, bool closed) { set_input(input, closed, now); });
+    work_.follow(slides, [&](std::size_t input, bool closed) {
         const InputConfig& config = machine_.inputs[input];
         set_contact((*this)[motor_named(machine_, config.motor).value()].plant(), config, closed);
     });

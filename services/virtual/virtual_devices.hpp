@@ -13,7 +13,7 @@
 #include "services/virtual/late_link.hpp"
 #include "services/virtual/machine_clocks.hpp"
 #include "services/virtual/virtual_fault.hpp"
-#include "sim_fpga/work/work_contacts.hpp"
+#include "sim_fpga/workpiece/work_contacts.hpp"
 
 namespace lockstep {
 

@@ -1,4 +1,4 @@
-// What is wired to a simulated device beside its motor: contacts that bounce, and spindles.
+// The contacts that bounce and the spindles at the pins of a simulated device.
 #pragma once
 
 #include <algorithm>

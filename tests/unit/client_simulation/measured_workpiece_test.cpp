@@ -11,7 +11,7 @@
 #include "services/documents/machine_file.hpp"
 #include "services/documents/program_file.hpp"
 #include "services/record/sinks.hpp"
-#include "sim_fpga/work/workpiece.hpp"
+#include "sim_fpga/workpiece/workpiece.hpp"
 
 namespace lockstep {
 namespace {
@@ -30,7 +30,7 @@ protected:
             return std::nullopt;
         }
         GcodeSetup setup = gcode_setup(machine, parked_mm(machine), "measure");
-        setup.find_subroutine = session_setup(machine, "measure").find_subroutine;
+        setup.find_subroutine = subroutines_of(machine);
         setup.awaits_touches = true;
         const std::string way =
             "G21 G90\nG0 X" + number_text(x) + " Y" + number_text(y) + "\nG0 Z" + number_text(z) + "\n";

@@ -1,4 +1,4 @@
-// The geometry of what a simulated machine's probes touch: the gap between the probe's ball and each solid.
+// The geometry of the solids that a simulated machine's probes touch: the gap between the probe's ball and each solid.
 //
 // Each solid goes down without end. Seen from a point, it has a height above its top and a distance from its side, both
 // negative within. The gap follows from the two, and is exact at faces and at edges. On a tilted or waved top the

@@ -10,7 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "core/kinematics/motors.hpp"
 #include "core/machine.hpp"
+#include "core/units.hpp"
 
 namespace lockstep {
 
@@ -21,20 +23,16 @@ public:
 
     /// Whole steps since the slide's power-up.
     void publish(std::size_t motor, std::int64_t steps) { word(motor).store(steps, std::memory_order_relaxed); }
-    /// Of each motor, in mm. A slide that was never published stands at its start.
-    std::vector<double> places_mm() const;
+    /// Of each motor. A slide that was never published stands at its start.
+    std::vector<Position> places() const;
 
 private:
-    struct Slide {
-        double start_mm;
-        double steps_per_mm;
-    };
-    SharedSlides(std::shared_ptr<std::int64_t[]> words, std::vector<Slide> slides)
-        : words_(std::move(words)), slides_(std::move(slides)) {}
+    SharedSlides(std::shared_ptr<std::int64_t[]> words, std::vector<MotorConfig> motors)
+        : words_(std::move(words)), motors_(std::move(motors)) {}
     std::atomic_ref<std::int64_t> word(std::size_t motor) const { return std::atomic_ref(words_.get()[motor]); }
 
     std::shared_ptr<std::int64_t[]> words_;
-    std::vector<Slide> slides_;
+    std::vector<MotorConfig> motors_;
 };
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-#include "sim_fpga/work/touched_device.hpp"
+#include "sim_fpga/workpiece/touched_device.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -35,7 +35,7 @@ void TouchedDevice::look(Tick at, Plant& plant, const std::function<void(Tick)>&
     run(at);
     slides_.publish(motor_, plant.slide());
     if (contacts_.none()) { return; }
-    contacts_.follow(slides_.places_mm(),
+    contacts_.follow(slides_.places(),
                      [&](std::size_t input, bool closed) { set_contact(plant, inputs_[input], closed); });
 }
 

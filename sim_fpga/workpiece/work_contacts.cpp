@@ -1,4 +1,4 @@
-#include "sim_fpga/work/work_contacts.hpp"
+#include "sim_fpga/workpiece/work_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,18 +22,14 @@ WorkContacts::WorkContacts(const MachineConfig& machine, const std::string& moto
     }
 }
 
-WorkPlace WorkContacts::place_of(const std::vector<double>& motors_mm) const {
-    std::vector<Position> motors;
-    for (std::size_t m = 0; m < motors_mm.size(); ++m) {
-        motors.push_back(Position::steps(to_steps(kinematics_.motors()[m], motors_mm[m])));
-    }
-    const auto mm = [&](std::size_t axis) { return kinematics_.axis_steps(axis, motors) * step_mm_[axis]; };
+WorkPlace WorkContacts::place_of(std::span<const Position> slides) const {
+    const auto mm = [&](std::size_t axis) { return kinematics_.axis_steps(axis, slides) * step_mm_[axis]; };
     return {mm(axes_[0]), mm(axes_[1]), mm(axes_[2])};
 }
 
-void WorkContacts::follow(const std::vector<double>& motors_mm, const std::function<void(std::size_t, bool)>& set) {
+void WorkContacts::follow(std::span<const Position> slides, const std::function<void(std::size_t, bool)>& set) {
     if (contacts_.empty()) { return; }
-    place_ = place_of(motors_mm);
+    place_ = place_of(slides);
     for (Contact& contact : contacts_) {
         contact.gap_mm = work_.gap_mm(contact.probe, place_);
         const bool is_closed = contact.gap_mm <= 0;

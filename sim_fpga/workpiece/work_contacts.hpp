@@ -3,12 +3,13 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/kinematics/kinematics.hpp"
 #include "core/machine.hpp"
-#include "sim_fpga/work/workpiece.hpp"
+#include "sim_fpga/workpiece/workpiece.hpp"
 
 namespace lockstep {
 
@@ -19,8 +20,8 @@ public:
 
     /// There is no workpiece, or no input of a probe.
     bool none() const { return contacts_.empty(); }
-    /// Calls set(input, closed) for each input that changes while the slides of the motors are at these places, in mm.
-    void follow(const std::vector<double>& motors_mm, const std::function<void(std::size_t, bool)>& set);
+    /// Calls set(input, closed) for each input that changes while the slides of the motors are at these places.
+    void follow(std::span<const Position> slides, const std::function<void(std::size_t, bool)>& set);
     /// Call it after each interval of motion. Returns whether an input may change in the next one, in which an axis
     /// goes at most three times as far.
     bool may_change_next();
@@ -32,7 +33,7 @@ private:
         bool is_closed = false;
         double gap_mm = 0;
     };
-    WorkPlace place_of(const std::vector<double>& motors_mm) const;
+    WorkPlace place_of(std::span<const Position> slides) const;
 
     Kinematics kinematics_;
     Workpiece work_;

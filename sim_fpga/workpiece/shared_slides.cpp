@@ -1,4 +1,4 @@
-#include "sim_fpga/work/shared_slides.hpp"
+#include "sim_fpga/workpiece/shared_slides.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -7,8 +7,6 @@
 #include <cerrno>
 #include <cstring>
 #include <utility>
-
-#include "core/kinematics/motors.hpp"
 
 namespace lockstep {
 namespace {
@@ -35,21 +33,17 @@ std::expected<SharedSlides, std::string> SharedSlides::open(const MachineConfig&
     ::close(file);
     errno = error;
     if (memory == MAP_FAILED) { return cannot(name, "map it"); }
-    std::vector<Slide> slides;
-    for (const MotorConfig& motor : motors_of(machine)) {
-        slides.push_back({motor.plant.start_position_mm, motor.steps_per_mm});
-    }
     return SharedSlides(std::shared_ptr<std::int64_t[]>(static_cast<std::int64_t*>(memory),
                                                         [](std::int64_t* words) { ::munmap(words, kBytes); }),
-                        std::move(slides));
+                        motors_of(machine));
 }
 
-std::vector<double> SharedSlides::places_mm() const {
-    std::vector<double> places;
-    for (std::size_t m = 0; m < slides_.size(); ++m) {
-        const bool has_steps = slides_[m].steps_per_mm > 0;
+std::vector<Position> SharedSlides::places() const {
+    std::vector<Position> places;
+    for (std::size_t m = 0; m < motors_.size(); ++m) {
         const auto steps = static_cast<double>(word(m).load(std::memory_order_relaxed));
-        places.push_back(slides_[m].start_mm + (has_steps ? steps / slides_[m].steps_per_mm : 0));
+        const double way_mm = motors_[m].steps_per_mm > 0 ? steps / motors_[m].steps_per_mm : 0;
+        places.push_back(Position::steps(to_steps(motors_[m], motors_[m].plant.start_position_mm + way_mm)));
     }
     return places;
 }

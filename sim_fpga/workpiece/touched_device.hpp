@@ -10,8 +10,8 @@
 #include <string>
 
 #include "sim_fpga/plant.hpp"
-#include "sim_fpga/work/shared_slides.hpp"
-#include "sim_fpga/work/work_contacts.hpp"
+#include "sim_fpga/workpiece/shared_slides.hpp"
+#include "sim_fpga/workpiece/work_contacts.hpp"
 
 namespace lockstep {
 
