@@ -19,7 +19,7 @@ void SwitchWatch::look(JobLifecycle& jobs, CoordinatorLoop& loop) {
         const InputConfig& input = loop.machine.inputs[i];
         if (!input.is_limit_by_message()) { continue; }
         const bool was_closed = were_closed_[i];
-        were_closed_[i] = loop.is_closed(input);
+        were_closed_[i] = loop.axes.is_closed(i).value_or(false);
         const bool is_away = was_closed && is_jogged(jobs.activity());
         if (!were_closed_[i] || is_away || !jobs.activity().in_motion()) { continue; }
         jobs.fail({FaultCode::LimitHit, motor_at_limit(loop.machine, input)}, loop);

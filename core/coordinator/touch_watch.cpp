@@ -28,11 +28,9 @@ void come_to_rest(std::size_t number, JobLifecycle& jobs, CoordinatorLoop& loop)
 
 /// At the first look no input has just closed.
 bool TouchWatch::has_just_closed(std::size_t input, const LoopView& loop) {
-    const InputConfig& config = loop.machine.inputs[input];
-    const auto motor = motor_named(loop.machine, config.motor);
-    if (!motor || !loop.axes.state(*motor)) { return false; }
-    const bool is_closed = (loop.axes.state(*motor)->inputs >> config.channel & 1) != 0;
-    return !std::exchange(were_closed_[input], is_closed).value_or(true) && is_closed;
+    const auto is_closed = loop.axes.is_closed(input);
+    if (!is_closed) { return false; }
+    return !std::exchange(were_closed_[input], is_closed).value_or(true) && *is_closed;
 }
 
 void TouchWatch::look(JobLifecycle& jobs, CoordinatorLoop& loop) {

@@ -61,7 +61,7 @@ std::size_t motor_at_limit(const MachineConfig& machine, const InputConfig& inpu
 
 MotorInputs::MotorInputs(const MachineConfig& machine) {
     for (const InputConfig& input : machine.inputs) {
-        places_.push_back({motor_named(machine, input.motor).value_or(0), bit_of(input), input.use, input.number});
+        places_.push_back({motor_named(machine, input.motor).value_or(0), bit_of(input), input.use});
     }
 }
 

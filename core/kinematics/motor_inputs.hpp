@@ -47,13 +47,6 @@ public:
     bool is_closed(std::size_t input, ClosedOf&& closed_of) const {
         return (closed_of(places_[input].motor) & places_[input].bit) != 0;
     }
-    /// The input of this use that programs know by this number; nullopt if there is none.
-    std::optional<std::size_t> numbered(InputUse use, int number) const {
-        for (std::size_t i = 0; i < places_.size(); ++i) {
-            if (places_[i].use == use && places_[i].number == number) { return i; }
-        }
-        return std::nullopt;
-    }
     std::size_t motor(std::size_t input) const { return places_[input].motor; }
 
 private:
@@ -61,7 +54,6 @@ private:
         std::size_t motor = 0;
         std::uint32_t bit = 0;
         InputUse use = InputUse::Program;
-        std::optional<int> number;
     };
     std::vector<Place> places_;
 };

@@ -90,12 +90,10 @@ std::optional<std::size_t> AxisRoster::closed_input(InputUse use) const {
                           [this](std::size_t motor) { return views_[motor].state ? views_[motor].state->inputs : 0; });
 }
 
-std::optional<bool> AxisRoster::is_input_closed(int number, Slot since) const {
-    const auto input = inputs_.numbered(InputUse::Program, number);
-    if (!input) { return std::nullopt; }
-    const auto& state = views_[inputs_.motor(*input)].state;
+std::optional<bool> AxisRoster::is_closed(std::size_t input, Slot since) const {
+    const auto& state = views_[inputs_.motor(input)].state;
     if (!state || state->stamp < since) { return std::nullopt; }
-    return inputs_.is_closed(*input, [&](std::size_t) { return state->inputs; });
+    return inputs_.is_closed(input, [&](std::size_t) { return state->inputs; });
 }
 
 std::optional<std::size_t> AxisRoster::stopped_by_input() const {

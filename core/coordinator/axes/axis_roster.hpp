@@ -54,9 +54,9 @@ public:
     bool all_rest() const;
     /// The first of the machine's inputs with this use that is closed; nullopt if there is none.
     std::optional<std::size_t> closed_input(InputUse use) const;
-    /// Whether the input for which programs wait by this number is closed. Nullopt: it is not known from a state
-    /// stamped in slot `since` or later.
-    std::optional<bool> is_input_closed(int number, Slot since) const;
+    /// Whether this input of the machine is closed. Nullopt: it is not known from a state stamped in slot `since` or
+    /// later.
+    std::optional<bool> is_closed(std::size_t input, Slot since = 0) const;
     /// A motor whose emergency stop input is closed, or that was stopped by it and not reset yet; nullopt: there is
     /// none.
     std::optional<std::size_t> stopped_by_input() const;

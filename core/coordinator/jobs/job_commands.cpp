@@ -174,6 +174,14 @@ CommandResult stop_at_once(JobLifecycle& jobs, CoordinatorLoop& loop) {
     return {};
 }
 
+/// By the number under which programs know the input, and a state stamped in slot `since` or later.
+std::optional<bool> is_program_input_closed(int number, Slot since, const LoopView& loop) {
+    const std::vector<InputConfig>& inputs = loop.machine.inputs;
+    const InputConfig* const input = input_numbered(inputs, InputUse::Program, number);
+    if (input == nullptr) { return std::nullopt; }
+    return loop.axes.is_closed(static_cast<std::size_t>(input - inputs.data()), since);
+}
+
 }  // namespace
 
 std::expected<std::shared_ptr<const KnownProgram>, Refusal> known_program(const Program& own,
@@ -399,7 +407,7 @@ CommandResult carry_out(const Command& command, BeginSteps begin_steps, JobLifec
 void go_on_at_input(JobLifecycle& jobs, CoordinatorLoop& loop) {
     if (!waits_for_input(jobs.activity())) { return; }
     activity::Paused& paused = *jobs.activity().as<activity::Paused>();
-    const auto is_closed = loop.axes.is_input_closed(paused.why.wait->input, paused.watch->since());
+    const auto is_closed = is_program_input_closed(paused.why.wait->input, paused.watch->since(), loop);
     const bool can_go_on = check_present(loop) && check_clocks(loop);
     switch (paused.watch->look(can_go_on ? is_closed : std::nullopt, loop.now)) {
         case InputWatch::Result::Waits: return;

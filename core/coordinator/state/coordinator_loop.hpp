@@ -35,11 +35,6 @@ struct LoopView {
         for (const AxisView& view : axes.views()) { plays.append(view.state ? view.state->play_steps : 0); }
         return plays;
     }
-    /// Whether an input of the machine is closed; false if it is not known.
-    bool is_closed(const InputConfig& input) const {
-        const auto motor = motor_named(machine, input.motor);
-        return motor && axes.state(*motor) && (axes.state(*motor)->inputs >> input.channel & 1) != 0;
-    }
     /// How messages to people name a motor.
     std::string label_of(std::size_t motor) const { return kinematics.label(motor); }
 };

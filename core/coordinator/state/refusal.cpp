@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/kinematics/motor_inputs.hpp"
 #include "core/number_text.hpp"
@@ -9,6 +10,16 @@
 
 namespace lockstep {
 namespace {
+
+/// The limit switches at which the coordinator stops the machine and that are closed.
+std::vector<const InputConfig*> closed_limits(const LoopView& loop) {
+    std::vector<const InputConfig*> closed;
+    for (std::size_t i = 0; i < loop.machine.inputs.size(); ++i) {
+        const InputConfig& input = loop.machine.inputs[i];
+        if (input.is_limit_by_message() && loop.axes.is_closed(i).value_or(false)) { closed.push_back(&input); }
+    }
+    return closed;
+}
 
 std::string at_limit_text(const InputConfig& input) {
     return "axis " + input.axis + " is at its " + (input.use == InputUse::LimitMin ? "lower" : "upper") +
@@ -71,24 +82,21 @@ CommandResult check_holding_inputs(const LoopView& loop) {
 }
 
 CommandResult check_limits(const LoopView& loop) {
-    for (const InputConfig& input : loop.machine.inputs) {
-        if (!input.is_limit_by_message() || !loop.is_closed(input)) { continue; }
-        return refuse(FaultCode::LimitHit,
-                      at_limit_text(input) + "; jog the axis away from it, then give the command again");
-    }
-    return {};
+    const auto closed = closed_limits(loop);
+    if (closed.empty()) { return {}; }
+    return refuse(FaultCode::LimitHit,
+                  at_limit_text(*closed.front()) + "; jog the axis away from it, then give the command again");
 }
 
 CommandResult check_jogs_at_limits(const std::vector<JogAxis>& jogs, const LoopView& loop) {
-    for (const InputConfig& input : loop.machine.inputs) {
-        if (!input.is_limit_by_message() || !loop.is_closed(input)) { continue; }
+    for (const InputConfig* const input : closed_limits(loop)) {
         const auto is_toward = [&](const JogAxis& jog) {
             const bool is_its_axis =
-                jog.axis < loop.machine.axes.size() && loop.machine.axes[jog.axis].name == input.axis;
-            return is_its_axis && (jog.speed_mm_s < 0) == (input.use == InputUse::LimitMin);
+                jog.axis < loop.machine.axes.size() && loop.machine.axes[jog.axis].name == input->axis;
+            return is_its_axis && (jog.speed_mm_s < 0) == (input->use == InputUse::LimitMin);
         };
         if (std::ranges::none_of(jogs, is_toward)) { continue; }
-        return refuse(FaultCode::LimitHit, at_limit_text(input) + "; jog the axis in the other direction");
+        return refuse(FaultCode::LimitHit, at_limit_text(*input) + "; jog the axis in the other direction");
     }
     return {};
 }

@@ -73,7 +73,7 @@ private:
     AxisVector start_at_;                  // and its place
     AxisVector best_end_;                  // where the best piece that was found ends
     bool is_fit_begun_ = false;            // for start_
-    std::size_t measured_ = 1;             // the first vertex with a turn that is not measured yet
+    std::size_t measured_ = 1;             // the first vertex whose deflection is not measured yet
     std::size_t found_ = 1;                // the first vertex that is not classified yet: corner or not
     std::size_t behind_ = 0;               // deflection_at: the last vertex that is kLook_mm or more behind
     std::size_t ahead_ = 0;
