@@ -117,13 +117,17 @@ GcodeSetup gcode_setup(const MachineConfig& machine, const std::vector<double>& 
     return setup;
 }
 
+std::function<std::optional<std::string>(std::string_view name)> subroutines_of(
+    const MachineConfig& machine, std::vector<std::filesystem::path> directories) {
+    if (!machine.subroutine_directory.empty()) { directories.emplace_back(machine.subroutine_directory); }
+    return [directories = std::move(directories)](std::string_view name) { return read_subroutine(directories, name); };
+}
+
 GcodeSetup program_setup(const std::filesystem::path& path, const MachineConfig& machine,
                          const std::vector<double>& start_mm, GcodeSwitches switches, const gcode::KeptValues& values) {
     GcodeSetup setup = gcode_setup(machine, start_mm, printable(path.filename().string()), switches);
     setup.values = values;
-    std::vector<std::filesystem::path> directories{path.parent_path()};
-    if (!machine.subroutine_directory.empty()) { directories.emplace_back(machine.subroutine_directory); }
-    setup.find_subroutine = [directories](std::string_view name) { return read_subroutine(directories, name); };
+    setup.find_subroutine = subroutines_of(machine, {path.parent_path()});
     return setup;
 }
 
@@ -131,9 +135,7 @@ GcodeSetup session_setup(const MachineConfig& machine, const std::string& name) 
     constexpr std::int64_t kMaxRepeatedLines = 100'000;  // of one line, so that a sender is answered soon
     GcodeSetup setup = gcode_setup(machine, std::vector<double>(machine.axes.size()), name);
     setup.limits.repeated_lines = kMaxRepeatedLines;
-    std::vector<std::filesystem::path> directories;
-    if (!machine.subroutine_directory.empty()) { directories.emplace_back(machine.subroutine_directory); }
-    setup.find_subroutine = [directories](std::string_view called) { return read_subroutine(directories, called); };
+    setup.find_subroutine = subroutines_of(machine);
     return setup;
 }
 

@@ -3,7 +3,10 @@
 
 #include <expected>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/gcode/gcode.hpp"
@@ -24,6 +27,11 @@ struct ProgramFile {
     GcodeSetup setup;
     GcodeReading reading;
 };
+
+/// Finds a subroutine in the file name.ngc of these directories, then of the machine's subroutine_directory; if there
+/// is none, a built-in one.
+std::function<std::optional<std::string>(std::string_view name)> subroutines_of(
+    const MachineConfig& machine, std::vector<std::filesystem::path> directories = {});
 
 /// Returns the interpreter's setup for a program's file. It reads a subroutine from the file name.ngc in the program's
 /// directory, or in the machine's subroutine_directory; if there is none, a built-in one.

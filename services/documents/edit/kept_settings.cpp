@@ -13,6 +13,7 @@
 #include "core/parse_number.hpp"
 #include "services/documents/edit/key_edit.hpp"
 #include "services/documents/machine_file.hpp"
+#include "services/documents/text/trimmed.hpp"
 #include "services/files/text_file.hpp"
 
 namespace lockstep {
@@ -40,12 +41,6 @@ constexpr std::array<Key, 9> kKeys{{
     {"homing.latch_velocity_mm_s", [](const AxisConfig& axis) { return axis.homing.latch_velocity_mm_s; }},
     {"homing.pulloff_mm", [](const AxisConfig& axis) { return axis.homing.pulloff_mm; }},
 }};
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kBlank = " \t\r";
-    text.remove_prefix(std::min(text.find_first_not_of(kBlank), text.size()));
-    return text.substr(0, text.find_last_not_of(kBlank) + 1);
-}
 
 bool is_value(std::string_view key, std::string_view text) {
     if (key == kSwitch) { return text == "true" || text == "false"; }

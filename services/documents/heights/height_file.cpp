@@ -7,19 +7,13 @@
 #include <vector>
 
 #include "core/parse_number.hpp"
+#include "services/documents/text/trimmed.hpp"
 #include "services/files/text_file.hpp"
 
 namespace lockstep {
 namespace {
 
-constexpr std::string_view kColumns = "x_mm,y_mm,z_mm";
 constexpr double kFarthest_mm = 1e6;
-
-std::string_view without_blanks(std::string_view text) {
-    const std::size_t begin = text.find_first_not_of(" \t\r");
-    if (begin == text.npos) { return {}; }
-    return text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
-}
 
 std::optional<HeightPoint> point_of(std::string_view line) {
     std::array<double, 3> values{};
@@ -27,7 +21,7 @@ std::optional<HeightPoint> point_of(std::string_view line) {
         const std::size_t comma = line.find(',');
         const bool is_last = i + 1 == values.size();
         if (is_last != (comma == line.npos)) { return std::nullopt; }
-        const auto value = parse_number<double>(without_blanks(line.substr(0, comma)));
+        const auto value = parse_number<double>(trimmed(line.substr(0, comma)));
         if (!value || !(std::abs(*value) <= kFarthest_mm)) { return std::nullopt; }
         values[i] = *value;
         line.remove_prefix(is_last ? line.size() : comma + 1);
@@ -42,9 +36,9 @@ std::expected<HeightMap, Diagnostics> parse_height_map(std::string_view text) {
     int number = 0;
     while (!text.empty()) {
         const std::size_t end = text.find('\n');
-        const std::string_view line = without_blanks(text.substr(0, end));
+        const std::string_view line = trimmed(text.substr(0, end));
         text.remove_prefix(end == text.npos ? text.size() : end + 1);
-        if (++number == 1 && line == kColumns) { continue; }
+        if (++number == 1 && line == kHeightColumns) { continue; }
         if (line.empty()) { continue; }
         const auto point = point_of(line);
         if (!point) {

@@ -11,6 +11,9 @@
 
 namespace lockstep {
 
+/// The first line of such a table. It may be missing.
+inline constexpr std::string_view kHeightColumns = "x_mm,y_mm,z_mm";
+
 /// Errors: the place of a line that is not three numbers; those of HeightMap::make.
 std::expected<HeightMap, Diagnostics> parse_height_map(std::string_view text);
 /// The same for a file. Errors also: why it cannot be read.

@@ -7,6 +7,19 @@ namespace {
 
 constexpr double kUsualWaveLength_mm = 100;
 
+/// The place and the size of a bore or a post.
+void read_round(const auto& message, const std::string& at, auto& round, ProtoReader& reader) {
+    reader.require(message.has_x_mm(), message.x_mm(), round.x_mm, at + ".x_mm");
+    reader.require(message.has_y_mm(), message.y_mm(), round.y_mm, at + ".y_mm");
+    reader.require(message.has_diameter_mm(), message.diameter_mm(), round.diameter_mm, at + ".diameter_mm");
+}
+
+void write_round(const auto& round, auto& message) {
+    message.set_x_mm(round.x_mm);
+    message.set_y_mm(round.y_mm);
+    message.set_diameter_mm(round.diameter_mm);
+}
+
 WorkBlock read_block(const proto::WorkBlock& message, const std::string& at, ProtoReader& reader) {
     WorkBlock block{.rise_x = message.rise_x(),
                     .rise_y = message.rise_y(),
@@ -21,21 +34,14 @@ WorkBlock read_block(const proto::WorkBlock& message, const std::string& at, Pro
     reader.require(message.has_y_max_mm(), message.y_max_mm(), block.y_max_mm, at + ".y_max_mm");
     reader.require(message.has_top_mm(), message.top_mm(), block.top_mm, at + ".top_mm");
     for (int k = 0; k < message.bore_size(); ++k) {
-        const proto::WorkBore& from = message.bore(k);
-        const std::string place = fmt::format("{}.bore[{}]", at, k);
-        WorkBore& bore = block.bores.emplace_back();
-        reader.require(from.has_x_mm(), from.x_mm(), bore.x_mm, place + ".x_mm");
-        reader.require(from.has_y_mm(), from.y_mm(), bore.y_mm, place + ".y_mm");
-        reader.require(from.has_diameter_mm(), from.diameter_mm(), bore.diameter_mm, place + ".diameter_mm");
+        read_round(message.bore(k), fmt::format("{}.bore[{}]", at, k), block.bores.emplace_back(), reader);
     }
     return block;
 }
 
 WorkPost read_post(const proto::WorkPost& message, const std::string& at, ProtoReader& reader) {
     WorkPost post{.probe = message.probe()};
-    reader.require(message.has_x_mm(), message.x_mm(), post.x_mm, at + ".x_mm");
-    reader.require(message.has_y_mm(), message.y_mm(), post.y_mm, at + ".y_mm");
-    reader.require(message.has_diameter_mm(), message.diameter_mm(), post.diameter_mm, at + ".diameter_mm");
+    read_round(message, at, post, reader);
     reader.require(message.has_top_mm(), message.top_mm(), post.top_mm, at + ".top_mm");
     return post;
 }
@@ -50,20 +56,13 @@ void write_block(const WorkBlock& block, proto::WorkBlock& message) {
     message.set_rise_y(block.rise_y);
     message.set_wave_mm(block.wave_mm);
     message.set_wave_length_mm(block.wave_length_mm);
-    for (const WorkBore& bore : block.bores) {
-        proto::WorkBore& out = *message.add_bore();
-        out.set_x_mm(bore.x_mm);
-        out.set_y_mm(bore.y_mm);
-        out.set_diameter_mm(bore.diameter_mm);
-    }
+    for (const WorkBore& bore : block.bores) { write_round(bore, *message.add_bore()); }
     message.set_angle_deg(block.angle_deg);
     message.set_probe(block.probe);
 }
 
 void write_post(const WorkPost& post, proto::WorkPost& message) {
-    message.set_x_mm(post.x_mm);
-    message.set_y_mm(post.y_mm);
-    message.set_diameter_mm(post.diameter_mm);
+    write_round(post, message);
     message.set_top_mm(post.top_mm);
     message.set_probe(post.probe);
 }
