@@ -15,6 +15,7 @@
 #include "clients/session/waits.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/format.hpp"
+#include "services/documents/heights/height_file.hpp"
 #include "services/documents/program_file.hpp"
 #include "services/files/text_file.hpp"
 
@@ -24,7 +25,7 @@ namespace {
 /// An interpreter in machine coordinates: without the machine's offsets and tools.
 GcodeSetup setup_of(const MachineConfig& machine, const std::vector<double>& start_mm, const std::string& name) {
     GcodeSetup setup = gcode_setup(machine, start_mm, name);
-    setup.find_subroutine = session_setup(machine, name).find_subroutine;
+    setup.find_subroutine = subroutines_of(machine);
     return setup;
 }
 
@@ -43,7 +44,7 @@ std::expected<void, Failure> check_open(const Session& session, int probe) {
 /// Fails if the file cannot be written, so that no measurement is lost.
 std::expected<void, Failure> check_file(const std::string& path) {
     if (path.empty()) { return {}; }
-    const auto written = write_text_file(path, "x_mm,y_mm,z_mm\n");
+    const auto written = write_text_file(path, std::string(kHeightColumns) + "\n");
     return written ? std::expected<void, Failure>{} : std::unexpected(bad_input(written.error()));
 }
 
@@ -56,9 +57,7 @@ Changed set_zero(const MachineConfig& machine, const std::string& system, const 
     ChangeWords words;
     const auto put = [&](bool is_measured, const char* axis, double mm) {
         if (!is_measured) { return; }
-        for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-            if (machine.axes[i].name == axis) { places_mm[i] = mm; }
-        }
+        places_mm[find_axis(machine, axis).value()] = mm;
         words.push_back(std::string(axis) + "=0");
     };
     put(measured.has_x_mm(), "X", measured.x_mm());

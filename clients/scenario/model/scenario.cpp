@@ -91,7 +91,7 @@ std::expected<Program, Diagnostics> program_of(const Asked::Run& run, const fs::
                                                const MachineConfig& machine, const std::vector<double>& start_mm) {
     if (run.has_file()) { return load_gcode_file(folder / run.file(), machine, start_mm); }
     GcodeSetup setup = gcode_setup(machine, start_mm, "gcode");
-    setup.find_subroutine = session_setup(machine, "gcode").find_subroutine;
+    setup.find_subroutine = subroutines_of(machine);
     auto program = parse_gcode(run.gcode(), setup);
     if (program) { return *std::move(program); }
     Diagnostics errors;

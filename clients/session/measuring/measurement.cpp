@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "clients/session/measuring/measure_words.hpp"
 #include "clients/session/measuring/measuring_program.hpp"
 #include "clients/text/format.hpp"
+#include "services/documents/heights/height_file.hpp"
 
 namespace lockstep {
 namespace {
@@ -19,7 +21,7 @@ std::vector<Result> results_of(const MeasureOptions& options) {
     using M = proto::Measurement;
     switch (options.kind) {
         case MeasureKind::Edge: {
-            const bool along_x = options.words.front().starts_with('X') || options.words.front().starts_with('x');
+            const bool along_x = one_way(options.words).value().axis == 0;
             return {{"_edge", along_x ? &M::set_x_mm : &M::set_y_mm}};
         }
         case MeasureKind::Angle: return {{"_angle", &M::set_angle_deg}};
@@ -89,7 +91,7 @@ std::string text_of(const proto::Measurement& measured) {
 }
 
 std::string csv_of(const proto::Measurement& measured) {
-    std::string text = "x_mm,y_mm,z_mm\n";
+    std::string text = std::string(kHeightColumns) + "\n";
     for (const proto::SurfacePoint& point : measured.points()) {
         text += fmt::format("{},{},{}\n", fixed(point.x_mm(), 6), fixed(point.y_mm(), 6), fixed(point.z_mm(), 6));
     }

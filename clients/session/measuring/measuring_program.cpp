@@ -9,6 +9,7 @@
 #include "clients/session/measuring/measure_words.hpp"
 #include "clients/session/move_program.hpp"
 #include "clients/text/format.hpp"
+#include "core/enumeration.hpp"
 #include "core/gcode/gcode.hpp"
 
 namespace lockstep {
@@ -179,11 +180,11 @@ private:
         const auto ranges = both_ranges(options_.words);
         if (!ranges) { return Error(ranges.error()); }
         SurfaceGrid grid{points((*ranges)[0]), points((*ranges)[1])};
-        if (grid.x_mm.size() * grid.y_mm.size() > kMostSurfacePoints) {
+        if (grid.x_mm.size() * grid.y_mm.size() > HeightMap::kMostPoints) {
             return Error(
                 fmt::format("the grid has {} points in X and {} in Y; it can have at most {} in all: choose a "
                             "greater --spacing",
-                            grid.x_mm.size(), grid.y_mm.size(), kMostSurfacePoints));
+                            grid.x_mm.size(), grid.y_mm.size(), HeightMap::kMostPoints));
         }
         for (const std::size_t axis : {0U, 1U}) {
             for (const double mm : {(*ranges)[axis].from_mm, (*ranges)[axis].to_mm}) {
@@ -221,8 +222,7 @@ private:
 }  // namespace
 
 std::string_view name_of(MeasureKind kind) {
-    constexpr std::array<std::string_view, 7> kKinds{"edge", "angle", "corner", "bore", "boss", "tool", "surface"};
-    return kKinds[static_cast<std::size_t>(kind)];
+    return pick_name({"edge", "angle", "corner", "bore", "boss", "tool", "surface"}, kind);
 }
 
 std::expected<MeasuringProgram, std::string> measuring_program(const MachineConfig& machine,

@@ -47,8 +47,6 @@ struct MeasuringProgram {
     std::optional<SurfaceGrid> grid;
 };
 
-inline constexpr std::size_t kMostSurfacePoints = 10'000;
-
 /// `start_mm`: where the axes stand. Errors, with the value, the limit and the remedy: the machine lacks X, Y, Z or the
 /// probe; a value is missing or out of range; the axes could leave their travel; the grid has too many points.
 std::expected<MeasuringProgram, std::string> measuring_program(const MachineConfig& machine,

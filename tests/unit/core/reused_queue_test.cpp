@@ -85,7 +85,7 @@ TEST(ReusedQueue, CopiesAndMovesOnlyWhatIsInUse) {
     EXPECT_EQ(content(copy), "2 3 ");
     const ReusedQueue<int> moved = std::move(copy);
     EXPECT_EQ(content(moved), "2 3 ");
-    EXPECT_TRUE(copy.empty());  // NOLINT(bugprone-use-after-move): it is empty, and may be filled anew
+    EXPECT_TRUE(copy.empty());  // NOLINT(bugprone-use-after-move): a queue that was moved from is empty
 }
 
 TEST(ReusedQueueDeathTest, ElementsThatAreNotThereAreFailedChecks) {
