@@ -10,6 +10,13 @@ std::vector<std::string> MachineConfig::axis_names() const {
     return names;
 }
 
+std::optional<AxisIndex> MachineConfig::axis_named(std::string_view wanted) const {
+    for (const AxisIndex axis : axis_indices(axes.size())) {
+        if (axes[axis].name == wanted) { return axis; }
+    }
+    return std::nullopt;
+}
+
 bool MachineConfig::estimates_clocks() const {
     if (timing.time_source == TimeSource::Network) { return true; }
     const auto is_on_own_clock = [](const BoardConfig& board) { return board.device.has_own_clock(); };

@@ -6,14 +6,15 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "core/axis_set.hpp"
 #include "core/device/device_name.hpp"
 #include "core/device/input_config.hpp"
 #include "core/device/link_name.hpp"
 #include "core/device/workpiece_config.hpp"
 #include "core/enumeration.hpp"
+#include "core/indices.hpp"
 #include "core/outputs/output_config.hpp"
 #include "core/outputs/unassigned_words.hpp"
 #include "core/protocol/timing.hpp"
@@ -287,6 +288,8 @@ struct MachineConfig {
     std::optional<WorkpieceConfig> workpiece;  // of a simulation
 
     std::vector<std::string> axis_names() const;
+    /// nullopt if there is none.
+    std::optional<AxisIndex> axis_named(std::string_view wanted) const;
     constexpr double ticks_per_second() const { return 1e9 / static_cast<double>(tick_ns); }
     constexpr double microseconds(Ticks ticks) const {
         return static_cast<double>(ticks.value) * static_cast<double>(tick_ns) * 1e-3;

@@ -65,7 +65,7 @@ const AxisConfig* Analysis::axis_config(const std::string& name) const {
 std::string Analysis::label_of(const std::string& motor) const {
     const MotorConfig* configured = motor_config(motor);
     if (configured == nullptr) { return "axis " + motor; }
-    return kinematics->label(static_cast<std::size_t>(configured - motors().data()));
+    return kinematics->label(MotorIndex{static_cast<std::size_t>(configured - motors().data())});
 }
 
 std::string_view Analysis::unit_of(const std::string& motor) const {

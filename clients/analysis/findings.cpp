@@ -283,11 +283,11 @@ double exact_steps_off(const Analysis& analysis) {
 }
 
 /// By how many steps the motors of an axis may be off their places, because the times of their steps are uncertain.
-double steps_by_clocks(const Analysis& analysis, AxisSet motors) {
+double steps_by_clocks(const Analysis& analysis, MotorSet motors) {
     double most = 0;
-    for (std::size_t m = 0; m < analysis.motors().size(); ++m) {
+    for (const MotorIndex m : motors) {
         const auto log = std::ranges::find(analysis.axes, analysis.motors()[m].name, &AxisLog::name);
-        if (!has_axis(motors, m) || log == analysis.axes.end()) { continue; }
+        if (log == analysis.axes.end()) { continue; }
         const AxisStatistics& statistics = (*log)->statistics();
         const auto error = static_cast<double>((kRounding + statistics.clock_error()).value);
         most = std::max(most, statistics.peak_steps_per_tick() * error);
@@ -302,11 +302,11 @@ double exact_distance_mm(const Analysis& analysis) {
     const double steps = exact_steps_off(analysis);
     double squares = 0;
     double by_clocks = 0;
-    for (std::size_t axis = 0; axis < analysis.kinematics->axes(); ++axis) {
+    for (const AxisIndex axis : axis_indices(analysis.kinematics->axes())) {
         const double step_mm = analysis.kinematics->step_mm(axis);
         const double most_mm = std::max(steps * step_mm, analysis.tolerance_mm);
         squares += most_mm * most_mm;
-        by_clocks += step_mm * steps_by_clocks(analysis, analysis.kinematics->motors_of_axes(axis_bit(axis)));
+        by_clocks += step_mm * steps_by_clocks(analysis, analysis.kinematics->motors_of_axes({axis}));
     }
     return std::sqrt(squares) + by_clocks;
 }

@@ -17,7 +17,7 @@ std::optional<double> scale_of(const Analysis& analysis, const std::string& name
     if (!analysis.has_motors_as_axes()) {
         const AxisConfig* axis = analysis.axis_config(name);
         if (axis == nullptr || !analysis.first_tick()) { return std::nullopt; }
-        return 1 / analysis.kinematics->step_mm(static_cast<std::size_t>(axis - analysis.config->axes.data()));
+        return 1 / analysis.kinematics->step_mm(*analysis.config->axis_named(name));
     }
     for (const auto& log : analysis.axes) {
         if (log->name() == name && log->statistics().first()) { return analysis.steps_per_mm(*log); }

@@ -109,7 +109,9 @@ void Recorder::on_run(std::size_t lane, const Run& run) {
     const std::string& motor = lanes_[lane].axis;
     events_.take(motor, run);
     const MotorConfig* config = axes_ ? analysis_.motor_config(motor) : nullptr;
-    if (config != nullptr) { axes_->take(static_cast<std::size_t>(config - analysis_.motors().data()), run); }
+    if (config != nullptr) {
+        axes_->take(MotorIndex{static_cast<std::size_t>(config - analysis_.motors().data())}, run);
+    }
 }
 
 void Recorder::on_job(const RecordedJob& message, LogPlace place) {
@@ -226,7 +228,7 @@ void Recorder::read_machine(const RecordedJob& message, LogPlace place) {
 /// Notes the motors with steps in the job that the log lacks.
 void Recorder::note_unknown(JobLog& job, const std::vector<std::string>& motors, JobMoves& moves) const {
     const Tick begun = analysis_.tick_at(*job.begun_us + kSilence_us);
-    for (std::size_t motor = 0; motor < moves.asked().motors(); ++motor) {
+    for (MotorIndex motor{0}; motor < moves.asked().motors(); ++motor) {
         const auto found = std::ranges::find(lanes_, motors[motor], &Lane::axis);
         const auto lane = static_cast<std::size_t>(found - lanes_.begin());
         const bool begins_late = lane == lanes_.size() || merge_.known_from(lane) > begun;

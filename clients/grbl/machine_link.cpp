@@ -177,7 +177,7 @@ void MachineLink::set_values(const Request& request, Grbl& grbl) {
 
 /// Whether every axis is at rest, according to its latest report.
 bool MachineLink::rests() const {
-    for (std::size_t i = 0; i < session_.config().axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(session_.config().axes.size())) {
         if (!session_.received().axis(i) || !session_.received().axis(i)->state.at_rest) { return false; }
     }
     return true;
@@ -198,17 +198,17 @@ MachineView MachineLink::view() {
     std::vector<const AxisState*> axes;
     std::vector<double> speeds;
     bool is_received = !session_.is_silent();
-    for (std::size_t i = 0; i < session_.config().axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(session_.config().axes.size())) {
         const auto& axis = session_.received().axis(i);
         axes.push_back(axis ? &axis->state : nullptr);
         speeds.push_back(session_.received().axis_speed(i));
         is_received = is_received && session_.received().axis_present(i);
     }
     MachineView view = view_of(session_.config(), state->state, axes, speeds);
-    view.closed_inputs = letters_of_inputs(session_.config(), [this](std::size_t motor) {
+    view.closed_inputs = letters_of_inputs(session_.config(), [this](MotorIndex motor) {
         return session_.received().motor(motor) ? session_.received().motor(motor)->state.inputs : 0;
     });
-    view.accessories = letters_of_outputs(session_.config(), view.devices, [this](std::size_t motor) {
+    view.accessories = letters_of_outputs(session_.config(), view.devices, [this](MotorIndex motor) {
         return session_.received().motor(motor) ? &session_.received().motor(motor)->state : nullptr;
     });
     view.is_received = is_received;

@@ -94,8 +94,8 @@ std::vector<FlightPeer> suspects_of(const Incident& incident, const Entry& sympt
         case VetoReason::NoEvidence: break;
     }
     std::vector<FlightPeer> lacking;
-    for (std::size_t i = 0; i < kMaxAxes; ++i) {
-        if (has_axis(static_cast<AxisSet>(event.count), i)) { lacking.push_back(flight_axis(i)); }
+    for (const MotorIndex motor : MotorSet::of_bits(static_cast<std::uint64_t>(event.count))) {
+        lacking.push_back(flight_axis(motor));
     }
     return lacking;
 }
@@ -174,7 +174,7 @@ std::string noticed_text(const Incident& incident, const Entry& symptom, const C
 }
 
 std::string end_of_motion(const Incident& incident, const Rest& rest, Tick noticed) {
-    if (rest.without_rest != 0) {
+    if (!rest.without_rest.empty()) {
         return "the notes do not show when " + axes_named(incident, rest.without_rest) + " came to rest";
     }
     const Ticks after = *rest.at - noticed;
@@ -183,10 +183,10 @@ std::string end_of_motion(const Incident& incident, const Rest& rest, Tick notic
 }
 
 std::string rest_text(const Incident& incident, const Rest& rest, Tick noticed) {
-    if (!rest.at && rest.moving == 0) { return "no axis was moving"; }
+    if (!rest.at && rest.moving.empty()) { return "no axis was moving"; }
     const std::string end = end_of_motion(incident, rest, noticed);
-    if (rest.moving == 0) { return end; }
-    const bool is_one = std::popcount(rest.moving) == 1;
+    if (rest.moving.empty()) { return end; }
+    const bool is_one = rest.moving.size() == 1;
     return axes_named(incident, rest.moving) + (is_one ? " was moving; " : " were moving; ") + end;
 }
 

@@ -43,7 +43,7 @@ struct Evaluation {
     Cause cause;
     Tick noticed;                    // by the process in the story; the time of the cause if there is no symptom
     std::optional<Tick> rest;        // when all axes are at rest; nullopt if none was moving, or if not known
-    AxisSet moving = 0;              // when the incident began
+    MotorSet moving;                 // when the incident began
     std::vector<std::string> story;  // the cause, the first symptom, the motion and its end: a sentence each
 };
 

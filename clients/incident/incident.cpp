@@ -18,7 +18,7 @@ namespace {
 
 /// The axis with this process; any other process is a coordinator.
 FlightPeer who_is(const MachineConfig& machine, const std::string& process) {
-    for (std::size_t i = 0; i < motor_count(machine); ++i) {
+    for (const MotorIndex i : motor_indices(motor_count(machine))) {
         if (process == flight_process(motor_name(machine, i))) { return flight_axis(i); }
     }
     return kFlightCoordinator;
@@ -138,7 +138,7 @@ void name_the_absent(Incident& incident) {
         return std::ranges::find(incident.processes, who, &Process::who) == incident.processes.end();
     };
     if (lacks(kFlightCoordinator)) { incident.absent.push_back("coordinator"); }
-    for (std::size_t i = 0; i < incident.motors.size(); ++i) {
+    for (const MotorIndex i : motor_indices(incident.motors.size())) {
         if (lacks(flight_axis(i))) { incident.absent.push_back(name_of(incident, flight_axis(i))); }
     }
 }
@@ -181,7 +181,9 @@ std::int64_t wall_us_of(const FileGroup& group, const Window& window, Tick at) {
 Incident incident_in(const Window& window, const FileGroup& group, const std::vector<Life>& lives) {
     Incident incident{.machine = group.front()->machine};
     const Kinematics kinematics(incident.machine);
-    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) { incident.motors.push_back(kinematics.label(m)); }
+    for (const MotorIndex m : motor_indices(kinematics.motors().size())) {
+        incident.motors.push_back(kinematics.label(m));
+    }
     for (const Life& life : lives) {
         if (belongs_to(life, window, lives)) { add(life, window, incident); }
     }

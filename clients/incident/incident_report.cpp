@@ -37,7 +37,7 @@ void add(const Incident& incident, const Entry& entry, Tick zero, proto::Inciden
     const FlightPeer who = incident.processes[entry.process].who;
     const bool is_place = event.kind == FlightKind::State || event.kind == FlightKind::Phase;
     if (!is_place || who.kind != FlightPeer::Kind::Axis) { return; }
-    const double steps_per_mm = motor_steps_per_mm(incident.machine, who.axis);
+    const double steps_per_mm = motor_steps_per_mm(incident.machine, who.motor());
     out.set_position_mm(static_cast<double>(event.count) / steps_per_mm);
     out.set_velocity_mm_s(event.amount / steps_per_mm);
 }
@@ -53,9 +53,7 @@ proto::IncidentReport to_report(const Incident& incident, const Evaluation& eval
     if (evaluation.cause.at) { report.set_cause_at_s(incident.seconds(*evaluation.cause.at - evaluation.noticed)); }
     if (evaluation.cause.lasts > Ticks{}) { report.set_cause_lasts_s(incident.seconds(evaluation.cause.lasts)); }
     if (evaluation.rest) { report.set_rest_s(incident.seconds(*evaluation.rest - evaluation.noticed)); }
-    for (std::size_t i = 0; i < motor_count(incident.machine); ++i) {
-        if (has_axis(evaluation.moving, i)) { report.add_moving(motor_name(incident.machine, i)); }
-    }
+    for (const MotorIndex motor : evaluation.moving) { report.add_moving(motor_name(incident.machine, motor)); }
     report.set_noticed_tick(evaluation.noticed.value);
     for (const std::string& sentence : evaluation.story) { report.add_story(sentence); }
     for (const Process& process : incident.processes) { add(incident, process, evaluation.noticed, report); }

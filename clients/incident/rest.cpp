@@ -86,8 +86,8 @@ Rest rest_of(const Incident& incident, Tick since) {
         }
         const auto at = watch.rest();
         if (at) { rest.at = std::max(rest.at.value_or(*at), *at); }
-        if (watch.was_moving()) { rest.moving |= axis_bit(who.axis); }
-        if (watch.was_moving() && !at) { rest.without_rest |= axis_bit(who.axis); }
+        if (watch.was_moving()) { rest.moving.insert(who.motor()); }
+        if (watch.was_moving() && !at) { rest.without_rest.insert(who.motor()); }
     }
     return rest;
 }

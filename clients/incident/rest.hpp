@@ -8,9 +8,9 @@
 namespace lockstep::incident {
 
 struct Rest {
-    std::optional<Tick> at;    // when the last axis came to rest; nullopt if none moved, or if no axis's rest is known
-    AxisSet moving = 0;        // the axes whose notes show motion
-    AxisSet without_rest = 0;  // those of them whose notes end, or have a gap, before they came to rest
+    std::optional<Tick> at;  // when the last axis came to rest; nullopt if none moved, or if no axis's rest is known
+    MotorSet moving;         // those whose notes show motion
+    MotorSet without_rest;   // those of them whose notes end, or have a gap, before they came to rest
 };
 
 /// The motion of all axes at `since`, and its end.

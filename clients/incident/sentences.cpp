@@ -42,7 +42,8 @@ std::string veto_text(const Incident& incident, const FlightEvent& event) {
         case VetoReason::Own: return "it is in Fault or stopped";
         case VetoReason::NoCoordinator: return "it has received no recent state of the coordinator";
         case VetoReason::NoEvidence:
-            return "no recent state of " + axes_named(incident, static_cast<AxisSet>(event.count)) +
+            return "no recent state of " +
+                   axes_named(incident, MotorSet::of_bits(static_cast<std::uint64_t>(event.count))) +
                    " reports that the frame is held";
     }
     return "the reason has " + numbered(event.detail);
@@ -210,11 +211,9 @@ std::string peer_name(const Incident& incident, FlightPeer peer) {
     return peer.axis < incident.motors.size() ? incident.motors[peer.axis] : fmt::format("axis {}", peer.axis);
 }
 
-std::string axes_named(const Incident& incident, AxisSet axes) {
+std::string axes_named(const Incident& incident, MotorSet motors) {
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < kMaxAxes; ++i) {
-        if (has_axis(axes, i)) { names.push_back(peer_name(incident, flight_axis(i))); }
-    }
+    for (const MotorIndex motor : motors) { names.push_back(peer_name(incident, flight_axis(motor))); }
     if (names.size() < 2) { return names.empty() ? "no axis" : names.front(); }
     const std::string last = names.back();
     names.pop_back();

@@ -18,7 +18,7 @@ std::string sentence(const Incident& incident, const Entry& entry);
 /// "axis X", "motor Y2", "the coordinator"
 std::string peer_name(const Incident& incident, FlightPeer peer);
 /// "axis X and axis Y"
-std::string axes_named(const Incident& incident, AxisSet axes);
+std::string axes_named(const Incident& incident, MotorSet motors);
 /// The end of a process without a request: "the process of axis X ended itself: failed check: ..."
 std::string end_text(const Incident& incident, const Process& process);
 /// "143 ms", "2.31 s", "0.4 ms"

@@ -64,7 +64,7 @@ std::optional<Cause> explain_by_standstill(const Incident& incident, FlightPeer 
     if (stall == nullptr) { return std::nullopt; }
     const Ticks lasts = stall->event.lasts;
     const Tick from = stall->tick - lasts;
-    AxisSet axes = 0;
+    MotorSet motors;
     std::size_t together = 0;
     std::vector<FlightPeer> looked_at;  // a process may have several lives
     for (const Process& process : incident.processes) {
@@ -73,13 +73,13 @@ std::optional<Cause> explain_by_standstill(const Incident& incident, FlightPeer 
         const Entry* other = standstill(incident, process.who, at);
         if (other == nullptr || overlap(*other, *stall) * 2 < lasts) { continue; }
         ++together;
-        if (process.who.kind == FlightPeer::Kind::Axis) { axes |= axis_bit(process.who.axis); }
+        if (process.who.kind == FlightPeer::Kind::Axis) { motors.insert(process.who.motor()); }
     }
     if (together > 1 && 2 * together >= looked_at.size()) {
         return Cause{CauseKind::HostStalled, std::nullopt,
                      fmt::format("{} processes stalled at the same time, for up to {}, including {}; check "
                                  "their host",
-                                 together, duration(incident.seconds(lasts)), axes_named(incident, axes)),
+                                 together, duration(incident.seconds(lasts)), axes_named(incident, motors)),
                      from, lasts};
     }
     return Cause{CauseKind::Stalled, suspect,

@@ -5,7 +5,7 @@
 namespace lockstep {
 
 CountedBlocks::CountedBlocks(const ProgramPlanner& planner, std::shared_ptr<const ProgramBlocks> blocks,
-                             std::vector<std::size_t> axes, const AxisCounts& start)
+                             std::vector<AxisIndex> axes, const AxisCounts& start)
     : planner_(planner), blocks_(std::move(blocks)), axes_(std::move(axes)), at_(start) {}
 
 const Block* CountedBlocks::block(std::uint32_t number) const {

@@ -15,7 +15,7 @@ class CountedBlocks final : public ProgramBlocks {
 public:
     /// `axes`: indices of the machine's axes that the program names.
     CountedBlocks(const ProgramPlanner& planner, std::shared_ptr<const ProgramBlocks> blocks,
-                  std::vector<std::size_t> axes, const AxisCounts& start);
+                  std::vector<AxisIndex> axes, const AxisCounts& start);
 
     const std::vector<std::string>& axes() const override { return blocks_->axes(); }
     const Block* block(std::uint32_t number) const override;
@@ -35,7 +35,7 @@ private:
 
     const ProgramPlanner& planner_;
     std::shared_ptr<const ProgramBlocks> blocks_;
-    std::vector<std::size_t> axes_;
+    std::vector<AxisIndex> axes_;
     // Mutable because a FrameSource reads its blocks through const functions. The counts do not affect the blocks.
     mutable AxisCounts at_;
     mutable std::uint32_t next_ = 0;

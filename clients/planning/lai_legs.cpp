@@ -128,7 +128,7 @@ std::expected<PlannedTotals, PlanError> plan_lai_legs(const MachineConfig& machi
     }
     timer.rest();
     planned.duration = timer.duration();
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         planned.axes.push_back(timer.loads()[i].plan(machine.axes[i]));
     }
     return planned;

@@ -36,7 +36,7 @@ public:
 private:
     const ProgramPlanner& planner_;
     const ProgramBlocks& blocks_;
-    std::vector<std::size_t> axes_;
+    std::vector<AxisIndex> axes_;
     std::uint32_t next_;
     std::uint32_t end_;
     AxisCounts at_;
@@ -49,7 +49,7 @@ public:
         : source_(planner.frames(blocks, leg.first, leg.from)), moves_(planner, *blocks, leg), waiting_(moves_.read()) {
         std::vector<Position> at;
         for (const std::int64_t count : kinematics.motors_at(leg.from).steps) {
-            const std::size_t motor = at.size();
+            const MotorIndex motor{at.size()};
             at.push_back(Position::steps(count + (motor < plays.size() ? plays[motor] : 0)));
             plan_.axes.emplace_back(at.back());
         }
@@ -156,7 +156,7 @@ std::expected<PlannedLegs, PlanError> each_planned_move(const MachineConfig& mac
         const auto plan = LegPlanner(planner, kinematics, blocks, leg, plays).run(visit);
         if (!plan) { return std::unexpected(plan.error()); }
         const MotorCounts slides = kinematics.motors_at(leg.to);
-        for (std::size_t m = 0; m < plays.size(); ++m) { plays[m] = plan->axes[m].to().count() - slides[m]; }
+        for (const MotorIndex m : motor_indices(plays.size())) { plays[m] = plan->axes[m].to().count() - slides[m]; }
         ++planned.legs;
         planned.duration += plan->duration;
     }

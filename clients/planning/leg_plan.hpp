@@ -54,8 +54,8 @@ struct LegPlan {
     Ticks end(std::size_t move) const { return move + 1 < moves.size() ? moves[move + 1].begin : duration; }
     /// The axis's position in steps when a move begins and when it ends. On a joined path it is less than a step from
     /// the program's position.
-    std::int64_t from(std::size_t move, std::size_t axis) const { return axes[axis].at(moves[move].begin).count(); }
-    std::int64_t to(std::size_t move, std::size_t axis) const { return axes[axis].at(end(move)).count(); }
+    std::int64_t from(std::size_t move, AxisIndex axis) const { return axes[axis].at(moves[move].begin).count(); }
+    std::int64_t to(std::size_t move, AxisIndex axis) const { return axes[axis].at(end(move)).count(); }
 };
 
 /// Plans the legs in which an axis moves or the program dwells. A leg goes from rest to rest; between two legs the

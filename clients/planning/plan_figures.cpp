@@ -13,10 +13,8 @@ std::string in_a_line(const ProgramPlan& plan) {
     return fmt::format("{} moves · {:.2f} s · {:.1f} mm along the path", plan.moves, plan.duration_s, plan.length_mm);
 }
 
-std::size_t place_of(const MachineConfig& machine, const std::string& name, std::size_t otherwise) {
-    const auto found = std::ranges::find(machine.axes, name, &AxisConfig::name);
-    const auto place = static_cast<std::size_t>(found - machine.axes.begin());
-    return place < machine.axes.size() ? place : std::min(otherwise, machine.axes.size() - 1);
+AxisIndex place_of(const MachineConfig& machine, const std::string& name, std::size_t otherwise) {
+    return machine.axis_named(name).value_or(AxisIndex{std::min(otherwise, machine.axes.size() - 1)});
 }
 
 Position place_at(const AxisTrack& track, Ticks t) {
@@ -69,9 +67,7 @@ void PlanDrawing::add_speeds(const AxisTrack& track, Ticks begin, Axis& axis) {
 /// Adds the points at both ends of each piece of the motors that move both axes.
 void PlanDrawing::add_places(const PathFrame& frame) {
     std::vector<Ticks> ends{Ticks{}};
-    const AxisSet plane = kinematics_.motors_of_axes(axis_bit(x_) | axis_bit(y_));
-    for (std::size_t m = 0; m < motors_.size(); ++m) {
-        if (!has_axis(plane, m)) { continue; }
+    for (const MotorIndex m : kinematics_.motors_of_axes({x_, y_})) {
         Ticks end;
         for (const Piece& piece : frame.axes[m].body) { ends.push_back(end += piece.ticks); }
     }

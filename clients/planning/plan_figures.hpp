@@ -39,8 +39,8 @@ private:
     Kinematics kinematics_;
     double ticks_per_s_;
     std::vector<Axis> motors_;
-    std::size_t x_;  // the plane's axes
-    std::size_t y_;
+    AxisIndex x_;  // the plane's axes
+    AxisIndex y_;
     drawing::ThinnedPath path_;  // mm
 };
 

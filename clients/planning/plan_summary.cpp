@@ -112,9 +112,8 @@ std::vector<double> parked_mm(const MachineConfig& machine) {
 AxisCounts start_counts(const MachineConfig& machine, const ProgramHead& program) {
     AxisCounts counts = parked_counts(machine);
     for (std::size_t i = 0; i < program.axes.size(); ++i) {
-        const auto place = std::ranges::find(machine.axes, program.axes[i], &AxisConfig::name) - machine.axes.begin();
-        const auto axis = static_cast<std::size_t>(place);
-        if (axis < machine.axes.size()) { counts[axis] = to_steps(machine.axes[axis], program.start_mm[i]); }
+        const auto axis = machine.axis_named(program.axes[i]);
+        if (axis) { counts[*axis] = to_steps(machine.axes[*axis], program.start_mm[i]); }
     }
     return counts;
 }
@@ -137,7 +136,7 @@ std::expected<ProgramPlan, PlanError> plan_blocks(const MachineConfig& machine, 
                      .duration_s = static_cast<double>(totals->duration.value) / machine.ticks_per_second(),
                      .length_mm = counted->length_mm(),
                      .axes = std::move(totals->axes)};
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         plan.start_mm.push_back(to_mm(machine.axes[i], static_cast<double>(planning.start[i])));
     }
     return plan;

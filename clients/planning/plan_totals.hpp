@@ -49,10 +49,10 @@ private:
     };
 
     void note_begins(const std::vector<MoveBegin>& begins);
-    void note_pieces(const AxisTrack& track, std::size_t axis);
-    void note_way(const Piece& piece, Position from, std::size_t axis);
-    void note_place(std::size_t axis, std::int64_t count);
-    void note_jump(std::size_t axis, double change, bool is_between_moves);
+    void note_pieces(const AxisTrack& track, MotorIndex motor);
+    void note_way(const Piece& piece, Position from, MotorIndex motor);
+    void note_place(MotorIndex motor, std::int64_t count);
+    void note_jump(MotorIndex motor, double change, bool is_between_moves);
 
     const MachineConfig& machine_;
     std::vector<MotorConfig> motors_;

@@ -44,7 +44,7 @@ public:
 
 private:
     std::shared_ptr<const ProgramBlocks> blocks_;
-    std::vector<std::size_t> axes_;
+    std::vector<AxisIndex> axes_;
     Overrides overrides_;
     const std::function<void(Ticks)>& progress_;
     ProgramMoves moves_;

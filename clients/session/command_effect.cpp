@@ -27,8 +27,8 @@ bool shows_effect(CommandKind command, MachinePhase phase) {
 
 std::string missing_axes(const Session& session) {
     std::string names;
-    for (std::size_t i = 0; i < session.received().kinematics().motors().size(); ++i) {
-        if (has_axis(session.state()->state.axes_present, i)) { continue; }
+    for (const MotorIndex i : motor_indices(session.received().kinematics().motors().size())) {
+        if (session.state()->state.motors_present.contains(i)) { continue; }
         names += (names.empty() ? "" : ", ") + motor_name(session.config(), i);
     }
     return names;

@@ -10,7 +10,7 @@ namespace lockstep {
 std::expected<std::vector<double>, Failure> start_places(Session& session) {
     if (auto reached = reach_axes(session); !reached) { return std::unexpected(reached.error()); }
     std::vector<double> start_mm;
-    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(session.config().axes.size())) {
         const auto count = static_cast<double>(session.received().axis(i)->state.position.count());
         start_mm.push_back(to_mm(session.config().axes[i], count));
     }

@@ -68,9 +68,9 @@ std::expected<AxisTarget, std::string> parse_target(std::string_view word) {
                            "' is not a target; write an axis, = and a place in mm: X=10 or Y=-3.5");
 }
 
-std::expected<std::size_t, std::string> find_axis(const MachineConfig& machine, std::string_view name) {
+std::expected<AxisIndex, std::string> find_axis(const MachineConfig& machine, std::string_view name) {
     std::string names;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         if (same_name(machine.axes[i].name, name)) { return i; }
         names += " " + machine.axes[i].name;
     }

@@ -52,6 +52,6 @@ std::expected<Program, std::string> probe_program(const MachineConfig& machine, 
 std::optional<Ticks> ticks_of(const MachineConfig& machine, const MoveOptions& options);
 
 /// Returns the axis's index in the configuration, ignoring case. The error lists the existing names.
-std::expected<std::size_t, std::string> find_axis(const MachineConfig& machine, std::string_view name);
+std::expected<AxisIndex, std::string> find_axis(const MachineConfig& machine, std::string_view name);
 
 }  // namespace lockstep

@@ -9,10 +9,8 @@ namespace {
 
 constexpr const char* kAbsent = "absent";
 
-bool is_present(const std::vector<PresentProcess>& present, std::optional<std::size_t> axis) {
-    return std::ranges::any_of(present, [&](const PresentProcess& process) {
-        return process.axis.has_value() == axis.has_value() && (!axis || *process.axis == *axis);
-    });
+bool is_present(const std::vector<PresentProcess>& present, std::optional<MotorIndex> motor) {
+    return std::ranges::find(present, motor, &PresentProcess::motor) != present.end();
 }
 
 proto::AwaitedPart awaited(const std::string& name, const std::string& host, const std::string& state) {
@@ -24,9 +22,9 @@ proto::AwaitedPart awaited(const std::string& name, const std::string& host, con
 }
 
 /// The state of an axis that is not received by this client or not by the coordinator.
-std::string axis_state(const MachineConfig& machine, const KnownParts& known, std::size_t axis) {
-    if (has_axis(known.axes_present, axis)) { return "started, but its messages do not reach the coordinator"; }
-    if (!is_present(known.present, axis)) { return kAbsent; }
+std::string axis_state(const MachineConfig& machine, const KnownParts& known, MotorIndex motor) {
+    if (known.motors_present.contains(motor)) { return "started, but its messages do not reach the coordinator"; }
+    if (!is_present(known.present, motor)) { return kAbsent; }
     const bool lacks_time = machine.timing.time_source == TimeSource::Network;
     return lacks_time ? "started, waits for the coordinator's clock" : "started, but its messages are not received";
 }
@@ -35,15 +33,15 @@ std::string axis_state(const MachineConfig& machine, const KnownParts& known, st
 
 KnownParts known_parts(const Session& session) {
     KnownParts known{.coordinator_present = session.state() && !session.is_silent(), .present = session.present()};
-    for (std::size_t i = 0; i < session.received().kinematics().motors().size(); ++i) {
-        if (session.received().motor_present(i)) { known.axes_present |= axis_bit(i); }
+    for (const MotorIndex i : motor_indices(session.received().kinematics().motors().size())) {
+        if (session.received().motor_present(i)) { known.motors_present.insert(i); }
     }
-    if (known.coordinator_present) { known.axes_present_at_coordinator = session.state()->state.axes_present; }
+    if (known.coordinator_present) { known.motors_present_at_coordinator = session.state()->state.motors_present; }
     return known;
 }
 
-std::string part_name(const MachineConfig& machine, std::optional<std::size_t> axis) {
-    return axis ? Kinematics(machine).label(*axis) : "coordinator";
+std::string part_name(const MachineConfig& machine, std::optional<MotorIndex> motor) {
+    return motor ? Kinematics(machine).label(*motor) : "coordinator";
 }
 
 std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, const KnownParts& known) {
@@ -54,9 +52,9 @@ std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, cons
                                 is_there ? "started, but its messages are not received" : kAbsent));
     }
     const std::vector<MotorConfig> motors = motors_of(machine);
-    for (std::size_t i = 0; i < motors.size(); ++i) {
-        const bool is_known = !known.coordinator_present || has_axis(known.axes_present_at_coordinator, i);
-        if (has_axis(known.axes_present, i) && is_known) { continue; }
+    for (const MotorIndex i : motor_indices(motors.size())) {
+        const bool is_known = !known.coordinator_present || known.motors_present_at_coordinator.contains(i);
+        if (known.motors_present.contains(i) && is_known) { continue; }
         parts.push_back(awaited(part_name(machine, i), motors[i].host, axis_state(machine, known, i)));
     }
     return parts;

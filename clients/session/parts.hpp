@@ -14,15 +14,15 @@ namespace lockstep {
 /// The parts that one process knows of.
 struct KnownParts {
     bool coordinator_present = false;
-    AxisSet axes_present = 0;
-    AxisSet axes_present_at_coordinator = 0;
+    MotorSet motors_present;
+    MotorSet motors_present_at_coordinator;
     std::vector<PresentProcess> present;
 };
 
 KnownParts known_parts(const Session& session);
 
 /// Returns "axis Z", or "coordinator" for nullopt.
-std::string part_name(const MachineConfig& machine, std::optional<std::size_t> axis);
+std::string part_name(const MachineConfig& machine, std::optional<MotorIndex> motor);
 
 /// The parts that are not received by this client, or not by the coordinator. Pure.
 std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, const KnownParts& seen);

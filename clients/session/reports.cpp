@@ -68,7 +68,7 @@ proto::FaultReport fault_report(FaultCode fault, const std::string& axis) {
     return report;
 }
 
-proto::FaultReport motor_fault(FaultCode fault, const Kinematics& kinematics, std::size_t motor) {
+proto::FaultReport motor_fault(FaultCode fault, const Kinematics& kinematics, MotorIndex motor) {
     const std::string& name = kinematics.motors()[motor].name;
     if (kinematics.is_named_as_axis(motor)) { return fault_report(fault, name); }
     proto::FaultReport report = fault_report(fault, "");
@@ -85,8 +85,9 @@ std::optional<proto::FaultReport> fault_of(const MachineState& state, const Mach
     if (state.fault == FaultCode::None) { return std::nullopt; }
     const bool has_axis = state.fault_axis && *state.fault_axis < motor_count(machine);
     if (!has_axis) { return fault_report(state.fault, ""); }
-    proto::FaultReport report = motor_fault(state.fault, Kinematics(machine), *state.fault_axis);
-    name_inputs(machine, *state.fault_axis, report);
+    const MotorIndex motor{*state.fault_axis};
+    proto::FaultReport report = motor_fault(state.fault, Kinematics(machine), motor);
+    name_inputs(machine, motor, report);
     return report;
 }
 
@@ -142,7 +143,7 @@ std::optional<Program> way_back(const Session& session) {
     if (!received || !received->state.pause) { return std::nullopt; }
     const auto& place = received->state.pause->place;
     std::vector<std::int64_t> here;
-    for (std::size_t i = 0; i < machine.axes.size() && session.received().axis(i); ++i) {
+    for (AxisIndex i; i < machine.axes.size() && session.received().axis(i); ++i) {
         here.push_back(session.received().axis(i)->state.position.count());
     }
     if (here.size() != machine.axes.size() || place.size() != here.size()) { return std::nullopt; }
@@ -170,18 +171,17 @@ std::optional<proto::PauseReport> pause_report(const Session& session) {
 
 namespace {
 
-void add_health(const Session& session, std::size_t motor, proto::AxisStatus& row) {
+void add_health(const Session& session, MotorIndex motor, proto::AxisStatus& row) {
     const auto& health = session.received().health(motor);
     if (health) { *row.mutable_health() = health_report(*health, session.config()); }
 }
 
 /// `motors`: those that the axis's row is about. Names the first of them that has the row's fault.
-void name_faults(const Session& session, AxisSet motors, proto::AxisStatus& row) {
+void name_faults(const Session& session, MotorSet motors, proto::AxisStatus& row) {
     const auto named = [&](const proto::FaultReport& fault, FaultCode AxisState::*of) {
-        for (std::size_t m = 0; m < session.received().kinematics().motors().size(); ++m) {
+        for (const MotorIndex m : motors) {
             const auto code = static_cast<FaultCode>(fault.number());
-            const bool has_it =
-                has_axis(motors, m) && session.received().motor(m) && session.received().motor(m)->state.*of == code;
+            const bool has_it = session.received().motor(m) && session.received().motor(m)->state.*of == code;
             if (!has_it) { continue; }
             proto::FaultReport of_motor = motor_fault(code, session.received().kinematics(), m);
             name_inputs(session.config(), m, of_motor);
@@ -195,7 +195,7 @@ void name_faults(const Session& session, AxisSet motors, proto::AxisStatus& row)
 
 void add_axes(const Session& session, proto::StatusReport& report) {
     const MachineConfig& machine = session.config();
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         const AxisConfig& config = machine.axes[i];
         const auto& axis = session.received().axis(i);
         proto::AxisStatus& row = *report.add_axes();
@@ -210,7 +210,7 @@ void add_axes(const Session& session, proto::StatusReport& report) {
 /// Motors that are not an axis's own.
 void add_motors(const Session& session, proto::StatusReport& report) {
     const Kinematics& kinematics = session.received().kinematics();
-    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+    for (const MotorIndex m : motor_indices(kinematics.motors().size())) {
         const MotorConfig& config = kinematics.motors()[m];
         if (config.is_board() || kinematics.own_motor(*config.axis) == m) { continue; }
         const auto& motor = session.received().motor(m);
@@ -219,14 +219,14 @@ void add_motors(const Session& session, proto::StatusReport& report) {
                           motor ? &motor->state : nullptr, motor ? motor->state.velocity.steps_per_tick() : 0);
         row.set_axis(session.config().axes[*config.axis].name);
         row.set_present(session.received().motor_present(m));
-        name_faults(session, axis_bit(m), row);
+        name_faults(session, {m}, row);
         add_health(session, m, row);
     }
 }
 
 void add_boards(const Session& session, proto::StatusReport& report) {
     const std::vector<MotorConfig>& motors = session.received().kinematics().motors();
-    for (std::size_t m = moving_motor_count(session.config()); m < motors.size(); ++m) {
+    for (MotorIndex m{moving_motor_count(session.config())}; m < motors.size(); ++m) {
         const auto& board = session.received().motor(m);
         proto::AxisStatus& row = *report.add_boards();
         row = axis_status({motors[m].name, motors[m].steps_per_mm, session.config().ticks_per_second()},
@@ -238,7 +238,7 @@ void add_boards(const Session& session, proto::StatusReport& report) {
         row.clear_following_error_steps();
         row.set_board(true);
         row.set_present(session.received().motor_present(m));
-        name_faults(session, axis_bit(m), row);
+        name_faults(session, {m}, row);
         add_health(session, m, row);
     }
 }
@@ -262,12 +262,12 @@ proto::StatusReport status_report(const Session& session) {
     add_axes(session, report);
     add_motors(session, report);
     add_boards(session, report);
-    const auto closed_of = [&](std::size_t motor) {
+    const auto closed_of = [&](MotorIndex motor) {
         return session.received().motor(motor) ? std::optional(session.received().motor(motor)->state.inputs)
                                                : std::nullopt;
     };
     add_inputs(machine, closed_of, report);
-    const auto state_of = [&](std::size_t motor) {
+    const auto state_of = [&](MotorIndex motor) {
         return session.received().motor(motor) ? &session.received().motor(motor)->state : nullptr;
     };
     const MachineState* const state = session.state() ? &session.state()->state : nullptr;

@@ -15,7 +15,7 @@ namespace lockstep {
 /// `axis`: name of the axis if the fault belongs to one axis, otherwise empty.
 proto::FaultReport fault_report(FaultCode fault, const std::string& axis);
 /// Of a motor of the machine.
-proto::FaultReport motor_fault(FaultCode fault, const Kinematics& kinematics, std::size_t motor);
+proto::FaultReport motor_fault(FaultCode fault, const Kinematics& kinematics, MotorIndex motor);
 
 /// The machine's fault; nullopt if there is none.
 std::optional<proto::FaultReport> fault_of(const MachineState& state, const MachineConfig& machine);

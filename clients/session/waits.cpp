@@ -32,8 +32,8 @@ std::string place_text(const MachineConfig& machine) {
 std::string present_axes(const Session& session) {
     std::string names;
     for (const PresentProcess& process : session.present()) {
-        if (!process.axis || *process.axis >= motors_of(session)) { continue; }
-        const std::string& name = session.received().kinematics().motors()[*process.axis].name;
+        if (!process.motor || *process.motor >= motors_of(session)) { continue; }
+        const std::string& name = session.received().kinematics().motors()[*process.motor].name;
         names += (names.empty() ? "" : ", ") + name + " on " + process.host;
     }
     return names;
@@ -86,7 +86,7 @@ std::expected<void, Failure> reach_axes(Session& session) {
     const nanoseconds deadline = monotonic_now() + kReachPatience;
     const Slot known = session.state() ? session.state()->state.stamp : Slot{};
     const ReceivedAxes& received = session.received();
-    for (std::size_t i = 0; i < motors_of(session); ++i) {
+    for (const MotorIndex i : motor_indices(motors_of(session))) {
         const auto is_known = [&] { return received.motor_present(i) && received.motor(i)->state.stamp >= known; };
         while (!is_known() && monotonic_now() <= deadline) { session.receive(50ms); }
         if (!received.motor_present(i)) {
@@ -100,12 +100,13 @@ std::expected<void, Failure> reach_axes(Session& session) {
 
 void await_axes(Session& session) {
     const nanoseconds begin = monotonic_now();
-    const auto may_come = [&](std::size_t i) {
-        const bool is_received = session.state() && has_axis(session.state()->state.axes_present, i);
+    const auto may_come = [&](MotorIndex i) {
+        const bool is_received = session.state() && session.state()->state.motors_present.contains(i);
         return !session.received().motor_present(i) &&
                monotonic_now() - begin < (is_received ? kReceivedPatience : kAbsentPatience);
     };
-    while (std::ranges::any_of(std::views::iota(std::size_t{0}, motors_of(session)), may_come)) {
+    const auto motors = std::views::iota(std::size_t{0}, motors_of(session));
+    while (std::ranges::any_of(motors, [&](std::size_t m) { return may_come(MotorIndex{m}); })) {
         session.receive(50ms);
     }
 }
@@ -113,7 +114,7 @@ void await_axes(Session& session) {
 void await_healths(Session& session, nanoseconds patience) {
     const nanoseconds deadline = monotonic_now() + patience;
     const ReceivedAxes& received = session.received();
-    for (std::size_t i = 0; i < motors_of(session); ++i) {
+    for (const MotorIndex i : motor_indices(motors_of(session))) {
         while (received.motor(i) && !received.health(i) && monotonic_now() < deadline) { session.receive(20ms); }
     }
 }

@@ -17,28 +17,28 @@ MachineRecorder::MachineRecorder(VirtualMachine& vm, RecordSink& sink)
 }
 
 /// An axis publishes its identity in its first loop. Steps that it finds in its device before are an earlier process's.
-void MachineRecorder::on_step(std::size_t axis, StepEdge step) {
-    axes_[axis] ? axes_[axis]->step(step) : found_[axis].push_back(step);
+void MachineRecorder::on_step(MotorIndex motor, StepEdge step) {
+    axes_[motor] ? axes_[motor]->step(step) : found_[motor].push_back(step);
     ++steps_;
 }
 
-void MachineRecorder::on_channel(std::size_t axis, const ChannelEvent& event) {
-    axes_[axis] ? axes_[axis]->channel(event) : noted_[axis].push_back(event);
+void MachineRecorder::on_channel(MotorIndex motor, const ChannelEvent& event) {
+    axes_[motor] ? axes_[motor]->channel(event) : noted_[motor].push_back(event);
 }
 
-void MachineRecorder::on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs& out, AxisNode& node) {
-    auto& recorder = axes_[axis];
+void MachineRecorder::on_axis(MotorIndex motor, Tick /*now*/, const AxisOutputs& out, AxisNode& node) {
+    auto& recorder = axes_[motor];
     if (!recorder && out.state) {
-        recorder = std::make_unique<AxisRecorder>(machine_, axis, out.state->identity, sink_);
-        for (const StepEdge& step : std::exchange(found_[axis], {})) { recorder->step(step); }
-        for (const ChannelEvent& event : std::exchange(noted_[axis], {})) { recorder->channel(event); }
+        recorder = std::make_unique<AxisRecorder>(machine_, motor, out.state->identity, sink_);
+        for (const StepEdge& step : std::exchange(found_[motor], {})) { recorder->step(step); }
+        for (const ChannelEvent& event : std::exchange(noted_[motor], {})) { recorder->channel(event); }
     }
     if (!recorder) { return; }
     recorder->lost_channel_events(node.device().lost_channel_events());
     recorder->loop(out, node.controller().zero_count(), node.device().lost_captures());
     if (!jobs_ || !out.state) { return; }
     jobs_->note_axis({.identity = out.state->identity,
-                      .axis = static_cast<std::uint32_t>(axis),
+                      .axis = static_cast<std::uint32_t>(motor),
                       .tick = out.state->tick,
                       .published = recorder->published()});
 }

@@ -16,9 +16,9 @@ public:
     /// Observes the machine from its power-up on. The machine and the sink must outlive the recorder.
     MachineRecorder(VirtualMachine& vm, RecordSink& sink);
 
-    void on_step(std::size_t axis, StepEdge step) override;
-    void on_channel(std::size_t axis, const ChannelEvent& event) override;
-    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
+    void on_step(MotorIndex motor, StepEdge step) override;
+    void on_channel(MotorIndex motor, const ChannelEvent& event) override;
+    void on_axis(MotorIndex motor, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_part(std::size_t process, Tick now, const ProgramPart& part) override;
     void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;

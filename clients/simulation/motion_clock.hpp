@@ -16,7 +16,7 @@ public:
             if (event.kind == JobEvent::Kind::Ended) { last_ended_ = event; }
         }
     }
-    void on_axis(std::size_t /*axis*/, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
+    void on_axis(MotorIndex /*axis*/, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
         for (const ExecutedTrack& track : out.tracks) {
             if (track.epoch == 0 || track.epoch != epoch_) { continue; }  // 0: homing
             end_ = std::max(end_, track.start + total_ticks(track.pieces));

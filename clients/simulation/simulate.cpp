@@ -103,7 +103,7 @@ void Simulation::advance_a_turn(const std::function<bool()>& busy) {
 
 /// Returns the reply once the machine's state shows its effect, or nullopt if the caller cancelled.
 std::optional<Reply> Simulation::ask(CommandKind kind, std::uint64_t program) {
-    const std::uint64_t sequence = vm_.command(kind, 0, program);
+    const std::uint64_t sequence = vm_.command(kind, {}, program);
     if (!advance_while([&] { return vm_.reply_to(sequence) == nullptr; })) { return std::nullopt; }
     const Tick answered = vm_.now();
     if (!advance_while([&] { return vm_.state()->tick <= answered; })) { return std::nullopt; }
@@ -171,7 +171,7 @@ SimulationResult Simulation::finish(SimulationResult result) {
     recorder_.finish();
     if (const auto& state = vm_.state(); state && state->fault != FaultCode::None) {
         result.fault = state->fault;
-        result.fault_axis = state->fault_axis;
+        if (state->fault_axis) { result.fault_motor = MotorIndex{*state->fault_axis}; }
     } else if (feed_ && state && state->job_fault != FaultCode::None) {
         result.fault = state->job_fault;
     }

@@ -31,7 +31,7 @@ struct SimulationResult {
     std::uint64_t job = 0;  // the last one of a program that probes; 0 if homing failed and the program was not begun
     JobOutcome outcome = JobOutcome::Failed;
     FaultCode fault = FaultCode::None;
-    std::optional<std::size_t> fault_axis;
+    std::optional<MotorIndex> fault_motor;
     std::string trouble;                     // as text; empty if there was none
     Ticks motion;                            // duration of the program's motion, without pauses
     std::vector<std::int64_t> final_counts;  // of the axes, steps

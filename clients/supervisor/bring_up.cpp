@@ -135,14 +135,14 @@ Failure missing(const Session& session, const OwnParts& parts, const StateDirect
     if (!session.state()) {
         return failed(with_log("no messages are received from the coordinator", "coordinator", state));
     }
-    for (std::size_t i = 0; i < session.received().kinematics().motors().size(); ++i) {
+    for (const MotorIndex i : motor_indices(session.received().kinematics().motors().size())) {
         const std::string& name = motor_name(session.config(), i);
-        if (!has_axis(session.state()->state.axes_present, i)) {
+        if (!session.state()->state.motors_present.contains(i)) {
             return failed(with_log("no messages are received from " + session.received().kinematics().label(i),
                                    "axis-" + name, state));
         }
     }
-    for (std::size_t i = 0; i < session.received().kinematics().motors().size(); ++i) {
+    for (const MotorIndex i : motor_indices(session.received().kinematics().motors().size())) {
         const std::string& name = motor_name(session.config(), i);
         const auto& axis = session.received().motor(i);
         if (axis && axis->state.unproved == FaultCode::DeviceMissing) {
@@ -158,7 +158,7 @@ std::string part_without_host(const MachineConfig& machine) {
     if (hosts_of(machine).size() < 2) { return ""; }
     if (machine.coordinator_host.empty()) { return part_name(machine, {}); }
     const std::vector<MotorConfig> motors = motors_of(machine);
-    for (std::size_t i = 0; i < motors.size(); ++i) {
+    for (const MotorIndex i : motor_indices(motors.size())) {
         if (motors[i].host.empty()) { return part_name(machine, i); }
     }
     return "";
@@ -208,8 +208,10 @@ std::expected<ProcessRecord, Failure> supervise_in_background(const StateDirecto
 
 bool is_whole(const Session& session) {
     if (!session.state()) { return false; }
-    for (std::size_t i = 0; i < session.received().kinematics().motors().size(); ++i) {
-        if (!session.received().motor_present(i) || !has_axis(session.state()->state.axes_present, i)) { return false; }
+    for (const MotorIndex i : motor_indices(session.received().kinematics().motors().size())) {
+        if (!session.received().motor_present(i) || !session.state()->state.motors_present.contains(i)) {
+            return false;
+        }
     }
     const MachinePhase phase = session.state()->state.phase;
     return phase == MachinePhase::Idle || phase == MachinePhase::Fault;

@@ -22,7 +22,7 @@ bool is_present(const ProcessRecord& record, const std::vector<PresentProcess>& 
 }
 
 bool is_placed(const Placement& placed, const PresentProcess& process) {
-    return process.axis ? std::ranges::find(placed.axes, *process.axis) != placed.axes.end() : placed.coordinator;
+    return process.motor ? std::ranges::find(placed.axes, *process.motor) != placed.axes.end() : placed.coordinator;
 }
 
 /// False if the number belongs to another program by now: a killed process stays on the network until its lease ends.
@@ -53,7 +53,7 @@ std::optional<std::string> foreign_part(const MachineConfig& machine, const Plac
     const std::string here = host_name();
     for (const PresentProcess& process : present) {
         if (!is_placed(placed, process) || process.host.empty()) { continue; }
-        const std::string part = part_name(machine, process.axis) + " of machine '" + machine.name + "'";
+        const std::string part = part_name(machine, process.motor) + " of machine '" + machine.name + "'";
         const std::string number = fmt::format("process {}", process.pid);
         if (process.host != here) {
             return fmt::format(

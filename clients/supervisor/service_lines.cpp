@@ -8,10 +8,10 @@ namespace lockstep {
 namespace {
 
 /// The boards behind links that carry devices of these motors, each once.
-std::set<std::string> boards_of(const MachineConfig& machine, const std::vector<std::size_t>& placed) {
+std::set<std::string> boards_of(const MachineConfig& machine, const std::vector<MotorIndex>& placed) {
     const std::vector<MotorConfig> motors = motors_of(machine);
     std::set<std::string> boards;
-    for (const std::size_t i : placed) {
+    for (const MotorIndex i : placed) {
         if (motors[i].device.kind == DeviceName::Kind::Linked) { boards.insert(motors[i].device.place); }
     }
     return boards;
@@ -38,7 +38,7 @@ std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Place
         return ServiceLine{name, std::move(words)};
     };
     std::vector<ServiceLine> lines;
-    for (const std::size_t i : placed.axes) {
+    for (const MotorIndex i : placed.axes) {
         if (layout.fpga != FpgaKind::Shared) { break; }
         const std::string& motor = motor_name(machine, i);
         lines.push_back(
@@ -60,7 +60,7 @@ std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Place
         lines.push_back(line(name, begin("lockstep-coordinator"), more));
         if (!layout.standby) { break; }
     }
-    for (const std::size_t i : placed.axes) {
+    for (const MotorIndex i : placed.axes) {
         const std::string& motor = motor_name(machine, i);
         const std::string name = "axis-" + motor;
         std::vector<std::string> more{"--axis", motor, "--log", state.log_file(name).string()};

@@ -9,18 +9,18 @@
 
 namespace lockstep {
 
-AxisController::AxisController(std::size_t axis, const MachineConfig& machine, Identity identity,
+AxisController::AxisController(MotorIndex motor, const MachineConfig& machine, Identity identity,
                                std::uint64_t config_hash, BeginSteps begin_steps, KeptOrNot kept)
-    : axis_(axis),
+    : motor_(motor),
       identity_(identity),
       config_hash_(config_hash),
       slot_(machine.slot_ticks()),
-      stop_inputs_(inputs_with(machine, motor_name(machine, axis), InputUse::EmergencyStop)),
-      condition_{.phases = {}, .position = {machine, axis, std::move(kept)}, .orders = {}},
+      stop_inputs_(inputs_with(machine, motor_name(machine, motor), InputUse::EmergencyStop)),
+      condition_{.phases = {}, .position = {machine, motor, std::move(kept)}, .orders = {}},
       owner_(machine.timing),
-      following_(axis, machine),
-      own_(axis, machine, begin_steps),
-      outputs_(axis, machine) {}
+      following_(motor, machine),
+      own_(motor, machine, begin_steps),
+      outputs_(motor, machine) {}
 
 const AxisOutputs& AxisController::step(const AxisInputs& inputs) {
     out_.clear();
@@ -153,7 +153,7 @@ void AxisController::receive(const AxisInputs& inputs, AxisLoop& loop) {
     for (const AxisState& peer : inputs.peers) { following_.take(peer, loop.slot); }
     for (const MachineState& state : inputs.coordinator) { receive(state, loop); }
     for (const AxisCommand& order : inputs.commands) {
-        if (order.axis != axis_ || !owner_.is_from_owner(order.term)) { continue; }
+        if (order.axis != motor_ || !owner_.is_from_owner(order.term)) { continue; }
         if (order.kind == AxisCommandKind::Jog) { own_.renew(order, loop); }
         if (condition_.orders.is_new(order.sequence)) { carry_out(order, loop); }
     }
@@ -249,7 +249,7 @@ AxisState AxisController::state(const AxisLoop& loop, Ticks clock_error) const {
     const SetpointFollower& follower = following_.follower();
     const DeviceStatus& device = device_.status();
     return {.identity = identity_,
-            .axis = static_cast<std::uint32_t>(axis_),
+            .axis = static_cast<std::uint32_t>(motor_),
             .stamp = loop.slot,
             .epoch = follower.epoch(),
             .held = follower.held(),

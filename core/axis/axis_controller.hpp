@@ -20,7 +20,7 @@ class AxisController {
 public:
     /// `identity` is new at every start of the process. `begin_steps`: the methods of the axis's own moves. `kept`: the
     /// position that the previous process kept.
-    AxisController(std::size_t axis, const MachineConfig& machine, Identity identity, std::uint64_t config_hash,
+    AxisController(MotorIndex motor, const MachineConfig& machine, Identity identity, std::uint64_t config_hash,
                    BeginSteps begin_steps, KeptOrNot kept);
 
     /// Valid until the next step.
@@ -62,7 +62,7 @@ private:
     /// The axis runs neither its own nor the owner's frames.
     bool is_resting() const { return !following_.is_open() && !own_.is_running(); }
 
-    std::size_t axis_;
+    MotorIndex motor_;
     Identity identity_;
     std::uint64_t config_hash_;
     Ticks slot_;

@@ -9,8 +9,8 @@
 
 namespace lockstep {
 
-DeviceTime::DeviceTime(std::size_t axis, const MachineConfig& machine)
-    : clocks_(machine), pace_(machine.frame_ticks(), limits_of(motors_of(machine)[axis], machine.tick_ns)) {}
+DeviceTime::DeviceTime(MotorIndex motor, const MachineConfig& machine)
+    : clocks_(machine), pace_(machine.frame_ticks(), limits_of(motors_of(machine)[motor], machine.tick_ns)) {}
 
 Ticks DeviceTime::error() const {
     Ticks most = clocks_.error_at(clocks_.now());

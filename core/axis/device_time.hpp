@@ -23,7 +23,7 @@ namespace lockstep {
 class DeviceTime {
 public:
     /// `axis`: its place in the configuration.
-    DeviceTime(std::size_t axis, const MachineConfig& machine);
+    DeviceTime(MotorIndex motor, const MachineConfig& machine);
 
     const DeviceClocks& clocks() const { return clocks_; }
     DeviceClocks& clocks() { return clocks_; }

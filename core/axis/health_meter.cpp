@@ -22,10 +22,8 @@ void RecentExtremes::begin_period() {
     periods_[newest_] = {};
 }
 
-HealthMeter::HealthMeter(std::size_t axis, Identity identity, std::int64_t tick_ns)
-    : axis_(static_cast<std::uint32_t>(axis)),
-      identity_(identity),
-      period_{1'000'000'000 / kReportsPerSecond / tick_ns} {}
+HealthMeter::HealthMeter(MotorIndex motor, Identity identity, std::int64_t tick_ns)
+    : motor_(motor), identity_(identity), period_{1'000'000'000 / kReportsPerSecond / tick_ns} {}
 
 void HealthMeter::look(Tick now, const DeviceStatus* device) {
     now_ = now;
@@ -96,7 +94,7 @@ std::optional<AxisHealth> HealthMeter::report(Ticks clock_error, RefusalCounts r
     refused.commands = refused_commands_;
     const AxisHealth health{
         .identity = identity_,
-        .axis = axis_,
+        .axis = static_cast<std::uint32_t>(motor_),
         .tick = now_,
         .step_lateness = lateness_.all(),
         .step_interval = interval_.all(),

@@ -23,7 +23,7 @@ private:
 
 class HealthMeter {
 public:
-    HealthMeter(std::size_t axis, Identity identity, std::int64_t tick_ns);
+    HealthMeter(MotorIndex motor, Identity identity, std::int64_t tick_ns);
 
     // Call these functions in each loop, in this order. Times are machine time.
 
@@ -48,7 +48,7 @@ private:
 
     static constexpr std::size_t kLoops = 1000;
 
-    std::uint32_t axis_;
+    MotorIndex motor_;
     Identity identity_;
     Ticks period_;
     Tick now_;

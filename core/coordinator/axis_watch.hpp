@@ -19,14 +19,14 @@ public:
 
 private:
     void look_at_stop_inputs(JobLifecycle& jobs, CoordinatorLoop& loop);
-    void look_at(std::size_t axis, AxisRoster& axes, JobLifecycle& jobs, CoordinatorLoop& loop) const;
+    void look_at(MotorIndex motor, AxisRoster& axes, JobLifecycle& jobs, CoordinatorLoop& loop) const;
 
     std::uint64_t config_hash_;
     bool is_stopped_by_input_ = false;
 };
 
 /// An axis without its process cannot keep its outputs, and another process must not switch them on again by itself.
-void lose_outputs(std::size_t axis, JobLifecycle& jobs, CoordinatorLoop& loop);
+void lose_outputs(MotorIndex motor, JobLifecycle& jobs, CoordinatorLoop& loop);
 /// Nothing begins before all axes are ready again.
 void wait_for_axes(JobLifecycle& jobs, CoordinatorLoop& loop);
 

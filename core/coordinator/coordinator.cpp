@@ -98,13 +98,15 @@ void Coordinator::receive(const AxisState& state, CoordinatorLoop& loop) {
     const AxisRoster::Arrival arrival = axes_.arrival_of(state, loop.slot);
     if (arrival == AxisRoster::Arrival::Ignored) { return; }
     ownership_.receive(state);
-    if (!axes_.is_present(state.axis, loop.slot)) { loop.notice({CoordinatorNotice::Kind::AxisSeen, {}, state.axis}); }
+    if (!axes_.is_present(state.motor(), loop.slot)) {
+        loop.notice({CoordinatorNotice::Kind::AxisSeen, {}, state.axis});
+    }
     const bool is_replaced = arrival == AxisRoster::Arrival::Replaced;
-    if (is_replaced && jobs_.activity().job() != nullptr) { jobs_.fail({FaultCode::AxisLost, state.axis}, loop); }
-    if (arrival != AxisRoster::Arrival::SameAxis) { orders_.withdraw(state.axis, axes_); }
-    if (is_replaced) { lose_outputs(state.axis, jobs_, loop); }
+    if (is_replaced && jobs_.activity().job() != nullptr) { jobs_.fail({FaultCode::AxisLost, state.motor()}, loop); }
+    if (arrival != AxisRoster::Arrival::SameAxis) { orders_.withdraw(state.motor(), axes_); }
+    if (is_replaced) { lose_outputs(state.motor(), jobs_, loop); }
     if (is_replaced) { jobs_.cut_inherited(TakeoverDoubt::AxisInDoubt, loop); }
-    const bool has_open_order = !loop.is_order_done(state.axis);
+    const bool has_open_order = !loop.is_order_done(state.motor());
     axes_.take(state, loop.slot);
     if (state.term == ownership_.term()) { orders_.catch_up(state, has_open_order); }
 }
@@ -223,7 +225,7 @@ void Coordinator::report(CoordinatorLoop& loop) const {
                             .phase = phase(),
                             .fault = fault.code,
                             .fault_axis = fault.faulty_axis(),
-                            .axes_present = axes_.present(loop.slot),
+                            .motors_present = axes_.present(loop.slot),
                             .config_hash = config_hash_,
                             .lease = std::move(old.lease),
                             .pause = std::move(old.pause)};

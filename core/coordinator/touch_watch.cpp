@@ -18,7 +18,8 @@ void come_to_rest(std::size_t number, JobLifecycle& jobs, CoordinatorLoop& loop)
     const InputConfig& input = loop.machine.inputs[number];
     loop.notice({CoordinatorNotice::Kind::TouchInMotion, FaultCode::None, number});
     if (input.at_touch_in_motion == TouchInMotion::Fault) {
-        return jobs.fail({FaultCode::TouchInMotion, motor_named(loop.machine, input.motor).value_or(0)}, loop);
+        return jobs.fail({FaultCode::TouchInMotion, motor_named(loop.machine, input.motor).value_or(MotorIndex{})},
+                         loop);
     }
     const bool can_hold = jobs.activity().is<activity::OnPath>();
     (void)commands::interrupt(can_hold ? Intent::Hold : Intent::Stop, jobs, loop);

@@ -32,19 +32,19 @@ FlightKind kind_of(AxisNotice::Kind kind) {
 VetoReason reason_of(const FailedCheck& check) {
     if (check.too_late) { return VetoReason::TooLate; }
     if (!check.held) { return VetoReason::NotHeld; }
-    return check.lacking != 0 ? VetoReason::NoEvidence : VetoReason::NoCoordinator;
+    return !check.lacking.empty() ? VetoReason::NoEvidence : VetoReason::NoCoordinator;
 }
 
 }  // namespace
 
-AxisFlight::AxisFlight(std::size_t axis, const MachineConfig& machine, FlightLog& log)
-    : axis_(axis),
+AxisFlight::AxisFlight(MotorIndex motor, const MachineConfig& machine, FlightLog& log)
+    : motor_(motor),
       ticks_per_second_(machine.ticks_per_second()),
       log_(log),
       loop_(machine),
       owner_(kFlightCoordinator, silence_limits(machine)) {
-    for (std::size_t i = 0; i < motor_count(machine); ++i) {
-        axes_.emplace_back(flight_axis(i), silence_limits(machine));
+    for (const MotorIndex m : motor_indices(motor_count(machine))) {
+        axes_.emplace_back(flight_axis(m), silence_limits(machine));
     }
 }
 
@@ -62,7 +62,7 @@ void AxisFlight::take(const AxisInputs& in, const AxisOutputs& out) {
 
 void AxisFlight::receive(const AxisInputs& in) {
     for (const AxisState& peer : in.peers) {
-        if (peer.axis >= axes_.size() || peer.axis == axis_) { continue; }
+        if (peer.axis >= axes_.size() || peer.axis == motor_) { continue; }
         axes_[peer.axis].receive(in.now, {peer.identity, peer.fault, peer.epoch, peer.veto}, log_);
         if (peer.touch) { touched_ = std::max(touched_, peer.touch->epoch); }
     }
@@ -70,7 +70,7 @@ void AxisFlight::receive(const AxisInputs& in) {
         if (state.phase != MachinePhase::Standby) { receive_owner(in.now, state); }
     }
     for (const AxisCommand& command : in.commands) {
-        if (command.axis != axis_ || command.sequence <= order_) { continue; }
+        if (command.axis != motor_ || command.sequence <= order_) { continue; }
         order_ = command.sequence;
         log_.add({.tick = in.now,
                   .kind = FlightKind::OrderReceived,
@@ -134,7 +134,7 @@ void AxisFlight::take_notice(Tick now, const AxisNotice& notice) {
     if (vetoed) { event.detail = static_cast<std::uint8_t>(VetoReason::Own); }
     if (notice.check) {
         event.detail = static_cast<std::uint8_t>(reason_of(*notice.check));
-        event.count = static_cast<std::int64_t>(notice.check->lacking);
+        event.count = static_cast<std::int64_t>(notice.check->lacking.bits());
     }
     log_.add(event);
     if (notice.kind == Kind::Touched) { touched_ = epoch_; }

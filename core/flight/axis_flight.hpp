@@ -12,7 +12,7 @@ namespace lockstep {
 class AxisFlight {
 public:
     /// `log` must outlive this object.
-    AxisFlight(std::size_t axis, const MachineConfig& machine, FlightLog& log);
+    AxisFlight(MotorIndex motor, const MachineConfig& machine, FlightLog& log);
 
     /// Call it after each step, before orders are converted to the device's time. All times are machine time.
     void take(const AxisInputs& in, const AxisOutputs& out);
@@ -26,7 +26,7 @@ private:
     void end_epoch(Tick now);
     void note_state(Tick now, const AxisState& state);
 
-    std::size_t axis_;
+    MotorIndex motor_;
     double ticks_per_second_;
     FlightLog& log_;
     LoopWatch loop_;

@@ -38,8 +38,8 @@ CoordinatorFlight::CoordinatorFlight(const MachineConfig& machine, FlightLog& lo
       loop_(machine),
       other_owner_(kFlightCoordinator, silence_limits(machine)),
       orders_(motor_count(machine)) {
-    for (std::size_t i = 0; i < motor_count(machine); ++i) {
-        axes_.emplace_back(flight_axis(i), silence_limits(machine));
+    for (const MotorIndex m : motor_indices(motor_count(machine))) {
+        axes_.emplace_back(flight_axis(m), silence_limits(machine));
     }
 }
 
@@ -90,10 +90,10 @@ void CoordinatorFlight::take_notice(Tick now, const CoordinatorNotice& notice) {
     FlightEvent event{.tick = now, .kind = *kind, .fault = notice.fault};
     switch (notice.kind) {
         case Kind::Fault:
-            if (is_of_an_axis(notice.fault)) { event.about = flight_axis(notice.number); }
+            if (is_of_an_axis(notice.fault)) { event.about = flight_axis(MotorIndex{notice.number}); }
             break;
         case Kind::AxisSeen:
-        case Kind::AxisGone: event.about = flight_axis(notice.number); break;
+        case Kind::AxisGone: event.about = flight_axis(MotorIndex{notice.number}); break;
         case Kind::Interrupted: event.frame = notice.number; break;
         case Kind::EpochBegun: event.epoch = notice.number; break;
         default: event.count = static_cast<std::int64_t>(notice.number);
@@ -132,7 +132,7 @@ void CoordinatorFlight::send(Tick now, const CoordinatorOutputs& out) {
         orders_[order.axis] = order.sequence;
         log_.add({.tick = now,
                   .kind = FlightKind::OrderSent,
-                  .about = flight_axis(order.axis),
+                  .about = flight_axis(MotorIndex{order.axis}),
                   .detail = static_cast<std::uint8_t>(order.kind),
                   .count = static_cast<std::int64_t>(order.sequence)});
     }

@@ -101,10 +101,14 @@ std::optional<IncidentReason> incident_reason(std::string_view name);
 struct FlightPeer {
     enum class Kind : std::uint8_t { None, Axis, Coordinator };
     Kind kind = Kind::None;
-    std::uint8_t axis = 0;  // its place in the configuration
+    std::uint8_t axis = 0;  // the place of its motor
     bool operator==(const FlightPeer&) const = default;
+
+    constexpr MotorIndex motor() const { return MotorIndex{axis}; }
 };
-constexpr FlightPeer flight_axis(std::size_t axis) { return {FlightPeer::Kind::Axis, static_cast<std::uint8_t>(axis)}; }
+constexpr FlightPeer flight_axis(MotorIndex motor) {
+    return {FlightPeer::Kind::Axis, static_cast<std::uint8_t>(motor)};
+}
 inline constexpr FlightPeer kFlightCoordinator{FlightPeer::Kind::Coordinator, 0};
 
 struct FlightEvent {

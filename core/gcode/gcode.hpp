@@ -28,6 +28,7 @@
 #include "core/gcode/motion.hpp"
 #include "core/gcode/setup.hpp"
 #include "core/gcode/text/error.hpp"
+#include "core/indices.hpp"
 #include "core/outputs/assigned_words.hpp"
 #include "core/outputs/unassigned_words.hpp"
 #include "core/program.hpp"
@@ -53,7 +54,7 @@ struct GcodeAxis {
 /// An output that makes pulses at places of an axis.
 struct GcodePulses {
     std::int32_t number = 0;      // P of M69
-    std::size_t axis = 0;         // in GcodeSetup::axes
+    AxisIndex axis;               // in GcodeSetup::axes
     double steps_per_mm = 0;      // of the motor whose device has the output, along the axis
     double least_spacing_mm = 0;  // a pulse ends before the next one at the axis's greatest speed
 };

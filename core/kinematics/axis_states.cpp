@@ -12,10 +12,10 @@ namespace {
 constexpr Slot kMostSlotsApart = 2;  // a state that is older shows where the motor was
 
 /// The newest of the motors' states.
-const AxisState* newest_of(AxisSet needed, std::span<const AxisState* const> motors) {
+const AxisState* newest_of(MotorSet needed, std::span<const AxisState* const> motors) {
     const AxisState* newest = nullptr;
-    for (std::size_t m = 0; m < motors.size(); ++m) {
-        if (!has_axis(needed, m) || motors[m] == nullptr) { continue; }
+    for (const MotorIndex m : needed) {
+        if (motors[m] == nullptr) { continue; }
         if (newest == nullptr || newest->tick < motors[m]->tick) { newest = motors[m]; }
     }
     return newest;
@@ -33,13 +33,15 @@ Switches any_of(const Switches& a, const Switches& b) {
 }
 
 /// Of an axis whose motor has its steps. If the motor corrects its screw, the place is the slide's.
-AxisState state_by_own(std::size_t axis, std::size_t own, const Kinematics& kinematics,
+AxisState state_by_own(AxisIndex axis, MotorIndex own, const Kinematics& kinematics,
                        std::span<const AxisState* const> motors) {
     AxisState state = *motors[own];
     if (!kinematics.corrects_screw(own)) { return state; }
     MotorCounts counts;
     std::vector<Position> places(motors.size());
-    for (std::size_t m = 0; m < motors.size(); ++m) { counts.steps.append(m == own ? state.position.count() : 0); }
+    for (const MotorIndex m : motor_indices(motors.size())) {
+        counts.steps.append(m == own ? state.position.count() : 0);
+    }
     places[own] = state.position;
     const bool is_whole = rests_on_whole_step(state.position);
     state.position = is_whole ? Position::steps(kinematics.axes_at(counts)[axis])
@@ -50,30 +52,26 @@ AxisState state_by_own(std::size_t axis, std::size_t own, const Kinematics& kine
 
 }  // namespace
 
-AxisSet motors_needed_for(std::size_t axis, const Kinematics& kinematics) {
-    AxisSet axes = axis_bit(axis);
-    for (AxisSet before = 0; before != axes;) {
+MotorSet motors_needed_for(AxisIndex axis, const Kinematics& kinematics) {
+    AxisSet axes{axis};
+    for (AxisSet before; before != axes;) {
         before = axes;
-        for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
-            const AxisSet moved = kinematics.axes_of_motor(m);
-            if ((moved & axes) != 0) { axes |= moved; }
-        }
+        for (const MotorIndex m : kinematics.motors_of_axes(before)) { axes |= kinematics.axes_of_motor(m); }
     }
     return kinematics.motors_of_axes(axes);
 }
 
-std::optional<AxisState> axis_state_of(std::size_t axis, const Kinematics& kinematics,
+std::optional<AxisState> axis_state_of(AxisIndex axis, const Kinematics& kinematics,
                                        std::span<const AxisState* const> motors) {
     if (const auto own = kinematics.own_motor(axis)) {
         return motors[*own] == nullptr ? std::nullopt : std::optional(state_by_own(axis, *own, kinematics, motors));
     }
-    const AxisSet needed = motors_needed_for(axis, kinematics);
-    const AxisSet own = kinematics.motors_of_axes(axis_bit(axis));
+    const MotorSet needed = motors_needed_for(axis, kinematics);
+    const MotorSet own = kinematics.motors_of_axes({axis});
     const AxisState* const newest = newest_of(needed, motors);
     std::vector<Position> places(motors.size());
     std::optional<AxisState> state;
-    for (std::size_t m = 0; m < motors.size(); ++m) {
-        if (!has_axis(needed, m)) { continue; }
+    for (const MotorIndex m : needed) {
         if (motors[m] == nullptr) { return std::nullopt; }
         const AxisState& motor = *motors[m];
         places[m] = place_at(*newest, motor);
@@ -85,7 +83,7 @@ std::optional<AxisState> axis_state_of(std::size_t axis, const Kinematics& kinem
             state->pulses_left = {};
             state->analog = {};
         }
-        if (has_axis(own, m)) { state->switches = any_of(state->switches, motor.switches); }
+        if (own.contains(m)) { state->switches = any_of(state->switches, motor.switches); }
         if (state->fault == FaultCode::None && motor.fault != FaultCode::None) {
             state->fault = motor.fault;
             state->phase = motor.phase;
@@ -104,10 +102,10 @@ std::optional<AxisState> axis_state_of(std::size_t axis, const Kinematics& kinem
     return state;
 }
 
-double axis_speed_of(std::size_t axis, const Kinematics& kinematics, std::span<const AxisState* const> motors) {
+double axis_speed_of(AxisIndex axis, const Kinematics& kinematics, std::span<const AxisState* const> motors) {
     std::vector<Position> places(motors.size());
     std::vector<double> speeds(motors.size());
-    for (std::size_t m = 0; m < motors.size(); ++m) {
+    for (const MotorIndex m : motor_indices(motors.size())) {
         if (motors[m] == nullptr) { continue; }
         places[m] = motors[m]->position;
         speeds[m] = motors[m]->velocity.steps_per_tick();

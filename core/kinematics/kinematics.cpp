@@ -9,7 +9,7 @@ namespace {
 constexpr double kMostSteps = 0x1p52;  // without a place of the tool, motors may place an axis anywhere
 
 /// How far an axis moves at most if each motor moves by one step, in steps, with these shares of the motors.
-double steps_of(const LinearMap& axes, std::size_t axis) {
+double steps_of(const LinearMap& axes, AxisIndex axis) {
     double steps = 0;
     for (const double share : axes.row(axis)) { steps += std::abs(share); }
     return steps;
@@ -23,7 +23,7 @@ Kinematics::Kinematics(const MachineConfig& machine)
       map_(step_map_of(machine)),
       inverse_(map_.motors_by_joints().inverse().value_or(LinearMap(map_.axes(), map_.motors()))),
       is_direct_(map_.is_identity() && !has_backlash(machine)) {
-    for (std::size_t i = 0; i < map_.axes(); ++i) {
+    for (const AxisIndex i : axis_indices(map_.axes())) {
         axis_steps_per_mm_.push_back(machine.axes[i].steps_per_mm);
         own_motors_.push_back(find_own_motor(i));
         steps_mm_.push_back(step_mm_of(i, machine));
@@ -36,7 +36,9 @@ MotorCounts Kinematics::motors_at(const AxisCounts& axes) const {
     if (is_direct_) {
         motors.steps = axes;
     } else {
-        for (std::size_t m = 0; m < map_.motors(); ++m) { motors.steps.append(std::llround(map_.place(m, axes))); }
+        for (const MotorIndex m : motor_indices(map_.motors())) {
+            motors.steps.append(std::llround(map_.place(m, axes)));
+        }
     }
     for (std::size_t board = map_.motors(); board < motors_.size(); ++board) { motors.steps.append(0); }
     return motors;
@@ -50,10 +52,10 @@ AxisCounts Kinematics::axes_at(const MotorCounts& motors) const {
         return axes;
     }
     StaticVector<double, kMaxAxes> places;
-    for (std::size_t m = 0; m < map_.motors(); ++m) {
+    for (const MotorIndex m : motor_indices(map_.motors())) {
         places.append(map_.without_screw(m, static_cast<double>(motors[m])));
     }
-    for (std::size_t i = 0; i < inverse_.motors(); ++i) {
+    for (const AxisIndex i : axis_indices(inverse_.motors())) {
         const double steps = map_.axis_by_joints(i, [&](std::size_t j) { return inverse_.place(j, places); });
         const std::int64_t nearest = std::llround(std::clamp(steps, -kMostSteps, kMostSteps));
         axes.append(moves_alone(i) ? place_of_all(i, nearest, motors) : nearest);
@@ -62,8 +64,8 @@ AxisCounts Kinematics::axes_at(const MotorCounts& motors) const {
 }
 
 /// Its motors follow no other axis.
-bool Kinematics::moves_alone(std::size_t axis) const {
-    for (std::size_t m = 0; m < map_.motors(); ++m) {
+bool Kinematics::moves_alone(AxisIndex axis) const {
+    for (const MotorIndex m : motor_indices(map_.motors())) {
         if (map_.shares().factor(m, axis) != 0 && map_.shares().only_axis_of(m) != axis) { return false; }
     }
     return true;
@@ -71,9 +73,9 @@ bool Kinematics::moves_alone(std::size_t axis) const {
 
 /// Motors with different steps rest at different places of their axis. Looks around the mean for one that rounds to
 /// all of them.
-std::int64_t Kinematics::place_of_all(std::size_t axis, std::int64_t mean, const MotorCounts& motors) const {
+std::int64_t Kinematics::place_of_all(AxisIndex axis, std::int64_t mean, const MotorCounts& motors) const {
     const auto is_of_all = [&](std::int64_t place) {
-        for (std::size_t m = 0; m < map_.motors(); ++m) {
+        for (const MotorIndex m : motor_indices(map_.motors())) {
             const double share = map_.shares().factor(m, axis);
             const double steps = share * static_cast<double>(place);
             const Screw* const screw = map_.screw(m);
@@ -92,24 +94,24 @@ std::int64_t Kinematics::place_of_all(std::size_t axis, std::int64_t mean, const
 }
 
 /// The steps of its motors are its own.
-bool Kinematics::rests_on_its_steps(std::size_t axis) const {
-    for (std::size_t m = 0; m < map_.motors(); ++m) {
+bool Kinematics::rests_on_its_steps(AxisIndex axis) const {
+    for (const MotorIndex m : motor_indices(map_.motors())) {
         const double share = std::abs(map_.shares().factor(m, axis));
         if (share != 0 && (share != 1 || map_.screw(m) != nullptr)) { return false; }
     }
     return moves_alone(axis);
 }
 
-std::int64_t Kinematics::find_rest_steps(std::size_t axis) const {
+std::int64_t Kinematics::find_rest_steps(AxisIndex axis) const {
     if (rests_on_its_steps(axis)) { return 0; }
     return static_cast<std::int64_t>(std::ceil(steps_mm_[axis] * axis_steps_per_mm_[axis] / 2 + 0.5));
 }
 
-double Kinematics::axis_steps(std::size_t axis, std::span<const Position> motors) const {
+double Kinematics::axis_steps(AxisIndex axis, std::span<const Position> motors) const {
     if (is_direct_) { return motors[axis].as_steps(); }
     return map_.axis_by_joints(axis, [&](std::size_t joint) {
         double sum = 0;
-        for (std::size_t m = 0; m < map_.motors(); ++m) {
+        for (const MotorIndex m : motor_indices(map_.motors())) {
             const double share = inverse_.factor(joint, m);
             if (share != 0) { sum += share * map_.without_screw(m, motors[m].as_steps()); }
         }
@@ -117,33 +119,32 @@ double Kinematics::axis_steps(std::size_t axis, std::span<const Position> motors
     });
 }
 
-double Kinematics::axis_speed(std::size_t axis, std::span<const Position> motors,
-                              std::span<const double> speeds) const {
+double Kinematics::axis_speed(AxisIndex axis, std::span<const Position> motors, std::span<const double> speeds) const {
     const auto speed = [&](const LinearMap& axes) {
         double sum = 0;
-        for (std::size_t m = 0; m < map_.motors(); ++m) { sum += axes.factor(axis, m) * speeds[m]; }
+        for (const MotorIndex m : motor_indices(map_.motors())) { sum += axes.factor(axis, m) * speeds[m]; }
         return sum;
     };
     if (map_.is_linear()) { return speed(inverse_); }
     std::vector<double> at;
-    for (std::size_t i = 0; i < axes(); ++i) { at.push_back(axis_steps(i, motors)); }
+    for (const AxisIndex i : axis_indices(axes())) { at.push_back(axis_steps(i, motors)); }
     const auto axes = map_.slopes_at(at).inverse();
     return axes ? speed(*axes) : 0;
 }
 
 /// Screws count with their steepest error. For a delta the most at a corner of the travel.
-double Kinematics::step_mm_of(std::size_t axis, const MachineConfig& machine) const {
+double Kinematics::step_mm_of(AxisIndex axis, const MachineConfig& machine) const {
     const double steps_per_mm = machine.axes[axis].steps_per_mm;
     if (!map_.delta()) {
         double steps = 0;
-        for (std::size_t m = 0; m < map_.motors(); ++m) {
+        for (const MotorIndex m : motor_indices(map_.motors())) {
             steps += std::abs(inverse_.factor(axis, m)) / (1 - map_.screw_share(m));
         }
         return steps / steps_per_mm;
     }
     double most = 0;
     constexpr std::size_t kCorners = 4;
-    const std::array<std::size_t, 3>& delta = map_.delta()->axes;
+    const std::array<AxisIndex, 3>& delta = map_.delta()->axes;
     for (std::size_t corner = 0; corner < kCorners; ++corner) {
         std::vector<double> at(axes());
         for (std::size_t k = 0; k < 2; ++k) {
@@ -158,41 +159,41 @@ double Kinematics::step_mm_of(std::size_t axis, const MachineConfig& machine) co
 std::optional<MotorAstray> Kinematics::astray(const MotorCounts& motors) const {
     if (is_direct_) { return std::nullopt; }
     const MotorCounts placed = motors_at(axes_at(motors));
-    for (std::size_t m = 0; m < map_.motors(); ++m) {
+    for (const MotorIndex m : motor_indices(map_.motors())) {
         const std::int64_t off = motors[m] - placed[m];
         if (off != 0) { return MotorAstray{m, to_mm(motors_[m], static_cast<double>(off))}; }
     }
     return std::nullopt;
 }
 
-AxisSet Kinematics::motors_of_axes(AxisSet axes) const {
-    AxisSet motors = 0;
-    for (std::size_t m = 0; m < map_.motors(); ++m) {
-        for (std::size_t i = 0; i < map_.axes(); ++i) {
-            if (has_axis(axes, i) && map_.shares().factor(m, i) != 0) { motors |= axis_bit(m); }
+MotorSet Kinematics::motors_of_axes(AxisSet axes) const {
+    MotorSet motors;
+    for (const MotorIndex m : motor_indices(map_.motors())) {
+        for (const AxisIndex i : axes) {
+            if (map_.shares().factor(m, i) != 0) { motors.insert(m); }
         }
     }
     return motors;
 }
 
-AxisSet Kinematics::axes_of_motor(std::size_t motor) const {
-    AxisSet axes = 0;
+AxisSet Kinematics::axes_of_motor(MotorIndex motor) const {
+    AxisSet axes;
     if (motors_[motor].is_board()) { return axes; }
-    for (std::size_t i = 0; i < map_.axes(); ++i) { axes |= map_.shares().factor(motor, i) != 0 ? axis_bit(i) : 0; }
+    for (const AxisIndex i : axis_indices(map_.axes())) {
+        if (map_.shares().factor(motor, i) != 0) { axes.insert(i); }
+    }
     return axes;
 }
 
 std::vector<std::string> Kinematics::names_of_axes(AxisSet axes) const {
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < axis_names_.size(); ++i) {
-        if (has_axis(axes, i)) { names.push_back(axis_names_[i]); }
-    }
+    for (const AxisIndex axis : axes) { names.push_back(axis_names_[axis]); }
     return names;
 }
 
-std::optional<std::size_t> Kinematics::find_own_motor(std::size_t axis) const {
-    std::optional<std::size_t> own;
-    for (std::size_t m = 0; m < map_.motors(); ++m) {
+std::optional<MotorIndex> Kinematics::find_own_motor(AxisIndex axis) const {
+    std::optional<MotorIndex> own;
+    for (const MotorIndex m : motor_indices(map_.motors())) {
         const double share = map_.shares().factor(m, axis);
         if (share == 0) { continue; }
         const double with_screw = motors_[m].steps_per_mm / axis_steps_per_mm_[axis];  // the axis has finer steps
@@ -204,21 +205,18 @@ std::optional<std::size_t> Kinematics::find_own_motor(std::size_t axis) const {
     return own;
 }
 
-std::string Kinematics::needs_frames(std::size_t axis) const {
-    const AxisSet motors = motors_of_axes(axis_bit(axis));
+std::string Kinematics::needs_frames(AxisIndex axis) const {
     std::string names;
-    for (std::size_t m = 0; m < map_.motors(); ++m) {
-        if (has_axis(motors, m)) { names += (names.empty() ? "" : ", ") + motors_[m].name; }
-    }
+    for (const MotorIndex m : motors_of_axes({axis})) { names += (names.empty() ? "" : ", ") + motors_[m].name; }
     return "axis " + axis_names_[axis] + " moves only on a path, because its motors must move together: " + names;
 }
 
-bool Kinematics::is_named_as_axis(std::size_t motor) const {
+bool Kinematics::is_named_as_axis(MotorIndex motor) const {
     const MotorConfig& config = motors_[motor];
     return config.axis && own_motor(*config.axis) == motor && config.name == axis_names_[*config.axis];
 }
 
-std::string Kinematics::label(std::size_t motor) const {
+std::string Kinematics::label(MotorIndex motor) const {
     const char* const kind = motors_[motor].is_board() ? "board " : is_named_as_axis(motor) ? "axis " : "motor ";
     return kind + motors_[motor].name;
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/axis_set.hpp"
+#include "core/indices.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/kinematics/places.hpp"
 
@@ -15,7 +15,7 @@ namespace lockstep {
 
 /// A motor that is not where the other motors of its axes place it.
 struct MotorAstray {
-    std::size_t motor = 0;
+    MotorIndex motor;
     double off_mm = 0;  // of the motor's way
 };
 
@@ -39,55 +39,55 @@ public:
     AxisCounts axes_at(const MotorCounts& motors) const;
     /// How far axes_at() may be from the place at which the machine came to rest, because the motors rest on whole
     /// steps, in steps of the axis.
-    std::int64_t rest_steps(std::size_t axis) const { return rest_steps_[axis]; }
+    std::int64_t rest_steps(AxisIndex axis) const { return rest_steps_[axis]; }
     /// The place of an axis in steps, exactly where the motors are.
-    double axis_steps(std::size_t axis, std::span<const Position> motors) const;
+    double axis_steps(AxisIndex axis, std::span<const Position> motors) const;
     /// mm of an axis that a motor moves alone, for each step of the motor.
-    double axis_mm(std::size_t axis, std::size_t motor) const {
+    double axis_mm(AxisIndex axis, MotorIndex motor) const {
         return 1 / (map_.shares().factor(motor, axis) * axis_steps_per_mm_[axis]);
     }
     /// The speed of an axis, in its steps, where the motors are; `speeds` of the motors are in steps of the same time.
-    double axis_speed(std::size_t axis, std::span<const Position> motors, std::span<const double> speeds) const;
+    double axis_speed(AxisIndex axis, std::span<const Position> motors, std::span<const double> speeds) const;
     /// How far an axis is moved at most if each motor moves by one step, in mm.
-    double step_mm(std::size_t axis) const { return steps_mm_[axis]; }
+    double step_mm(AxisIndex axis) const { return steps_mm_[axis]; }
     /// A motor that is not where the axes' place puts it; nullopt if there is none. Motors of one axis differ after an
     /// emergency stop or a fault, and before the axis is homed. No path begins there.
     std::optional<MotorAstray> astray(const MotorCounts& motors) const;
 
     /// The motors that move when one of these axes moves.
-    AxisSet motors_of_axes(AxisSet axes) const;
-    AxisSet axes_of_motor(std::size_t motor) const;
+    MotorSet motors_of_axes(AxisSet axes) const;
+    AxisSet axes_of_motor(MotorIndex motor) const;
     /// Their names.
     std::vector<std::string> names_of_axes(AxisSet axes) const;
     /// Whether a motor corrects the errors of its screw, so that its place differs from its slide's.
-    bool corrects_screw(std::size_t motor) const { return map_.screw(motor) != nullptr; }
+    bool corrects_screw(MotorIndex motor) const { return map_.screw(motor) != nullptr; }
     /// Where a motor rests while one axis is elsewhere than the others place it: `axes` with this axis at `place`.
-    std::int64_t motor_at(std::size_t motor, AxisCounts axes, std::size_t axis, std::int64_t place) const {
+    std::int64_t motor_at(MotorIndex motor, AxisCounts axes, AxisIndex axis, std::int64_t place) const {
         axes[axis] = place;
         return motors_at(axes)[motor];
     }
     /// The only motor of an axis, if it moves no other axis and has the axis's steps, or corrects its screw; otherwise
     /// nullopt, also if it has backlash.
-    const std::optional<std::size_t>& own_motor(std::size_t axis) const { return own_motors_[axis]; }
+    const std::optional<MotorIndex>& own_motor(AxisIndex axis) const { return own_motors_[axis]; }
     /// Says why an axis without a motor of its own does not move by itself.
-    std::string needs_frames(std::size_t axis) const;
+    std::string needs_frames(AxisIndex axis) const;
     /// Whether messages to people name a motor as an axis: it is the axis's own and has its name.
-    bool is_named_as_axis(std::size_t motor) const;
+    bool is_named_as_axis(MotorIndex motor) const;
     /// How messages to people name a motor: `axis Y`, otherwise `motor Y2`, or `board IO`.
-    std::string label(std::size_t motor) const;
+    std::string label(MotorIndex motor) const;
 
 private:
-    std::optional<std::size_t> find_own_motor(std::size_t axis) const;
-    bool moves_alone(std::size_t axis) const;
-    bool rests_on_its_steps(std::size_t axis) const;
-    std::int64_t find_rest_steps(std::size_t axis) const;
-    std::int64_t place_of_all(std::size_t axis, std::int64_t mean, const MotorCounts& motors) const;
-    double step_mm_of(std::size_t axis, const MachineConfig& machine) const;
+    std::optional<MotorIndex> find_own_motor(AxisIndex axis) const;
+    bool moves_alone(AxisIndex axis) const;
+    bool rests_on_its_steps(AxisIndex axis) const;
+    std::int64_t find_rest_steps(AxisIndex axis) const;
+    std::int64_t place_of_all(AxisIndex axis, std::int64_t mean, const MotorCounts& motors) const;
+    double step_mm_of(AxisIndex axis, const MachineConfig& machine) const;
 
     std::vector<MotorConfig> motors_;  // the moving ones, and behind them the boards
     std::vector<std::string> axis_names_;
-    std::vector<std::optional<std::size_t>> own_motors_;  // of each axis
-    std::vector<double> steps_mm_;                        // of each axis
+    std::vector<std::optional<MotorIndex>> own_motors_;  // of each axis
+    std::vector<double> steps_mm_;                       // of each axis
     std::vector<double> axis_steps_per_mm_;
     std::vector<std::int64_t> rest_steps_;  // of each axis
     MotorMap map_;                          // steps by steps

@@ -52,16 +52,16 @@ std::string causes_of(const MachineConfig& machine, std::string_view motor, Faul
     return text;
 }
 
-std::size_t motor_at_limit(const MachineConfig& machine, const InputConfig& input) {
-    const auto axis = std::ranges::find(machine.axes, input.axis, &AxisConfig::name) - machine.axes.begin();
+MotorIndex motor_at_limit(const MachineConfig& machine, const InputConfig& input) {
+    const auto axis = machine.axis_named(input.axis);
     const auto motors = motors_of(machine);
-    const auto first = std::ranges::find(motors, static_cast<std::size_t>(axis), &MotorConfig::axis);
-    return static_cast<std::size_t>(first - motors.begin());
+    const auto first = std::ranges::find(motors, axis, &MotorConfig::axis);
+    return MotorIndex{static_cast<std::size_t>(first - motors.begin())};
 }
 
 MotorInputs::MotorInputs(const MachineConfig& machine) {
     for (const InputConfig& input : machine.inputs) {
-        places_.push_back({motor_named(machine, input.motor).value_or(0), bit_of(input), input.use});
+        places_.push_back({motor_named(machine, input.motor).value_or(MotorIndex{}), bit_of(input), input.use});
     }
 }
 

@@ -26,7 +26,7 @@ std::string label_of(const InputConfig& input);
 std::string causes_of(const MachineConfig& machine, std::string_view motor, FaultCode fault);
 
 /// The number of the first motor of the axis that an input names, a limit switch.
-std::size_t motor_at_limit(const MachineConfig& machine, const InputConfig& input);
+MotorIndex motor_at_limit(const MachineConfig& machine, const InputConfig& input);
 
 /// Where the machine's inputs are: each by the number of its motor, in the order of the machine's file.
 class MotorInputs {
@@ -47,11 +47,11 @@ public:
     bool is_closed(std::size_t input, ClosedOf&& closed_of) const {
         return (closed_of(places_[input].motor) & places_[input].bit) != 0;
     }
-    std::size_t motor(std::size_t input) const { return places_[input].motor; }
+    MotorIndex motor(std::size_t input) const { return places_[input].motor; }
 
 private:
     struct Place {
-        std::size_t motor = 0;
+        MotorIndex motor;
         std::uint32_t bit = 0;
         InputUse use = InputUse::Program;
     };

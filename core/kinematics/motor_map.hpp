@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/indices.hpp"
 #include "core/kinematics/delta_map.hpp"
 #include "core/kinematics/linear_map.hpp"
 #include "core/kinematics/screw.hpp"
@@ -15,14 +16,14 @@ namespace lockstep {
 /// A delta of a machine.
 struct MachineDelta {
     DeltaMap map;
-    std::array<std::size_t, 3> axes{};  // X, Y, Z
-    std::array<std::size_t, DeltaMap::kTowers> motors{};
+    std::array<AxisIndex, 3> axes;  // X, Y, Z
+    std::array<MotorIndex, DeltaMap::kTowers> motors;
     std::array<double, 3> axis_steps_per_mm{};
     std::array<double, DeltaMap::kTowers> motor_steps_per_mm{};
 
     /// The tower of a motor.
-    std::optional<std::size_t> tower_of(std::size_t motor) const;
-    std::optional<std::size_t> coordinate_of(std::size_t axis) const;
+    std::optional<std::size_t> tower_of(MotorIndex motor) const;
+    std::optional<std::size_t> coordinate_of(AxisIndex axis) const;
     template <typename Places>
     DeltaMap::Point point(const Places& axis_steps) const {
         const auto mm = [&](std::size_t k) { return static_cast<double>(axis_steps[axes[k]]) / axis_steps_per_mm[k]; };
@@ -45,7 +46,7 @@ public:
     const std::optional<MachineDelta>& delta() const { return delta_; }
     bool is_identity() const { return is_linear() && shares_.is_identity(); }
     /// Null if its screw is exact.
-    const Screw* screw(std::size_t motor) const {
+    const Screw* screw(MotorIndex motor) const {
         return screws_.empty() || screws_[motor].is_exact() ? nullptr : &screws_[motor];
     }
     /// By how much each motor moves at most if an axis moves by a step and all screws are exact, with a sign if it is
@@ -54,35 +55,35 @@ public:
 
     /// The place of a motor.
     template <typename Places>
-    double place(std::size_t motor, const Places& axes) const {
+    double place(MotorIndex motor, const Places& axes) const {
         const double steps = exact_place(motor, axes);
         const Screw* const own = screw(motor);
         return own == nullptr ? steps : own->motor(steps);
     }
     /// By how much a motor moves while the axes move a little from `at`, for a change of the axes.
-    template <typename Places>
-    double slope(std::size_t motor, const Places& at, const Places& change) const {
+    template <typename Places, typename Changes>
+    double slope(MotorIndex motor, const Places& at, const Changes& change) const {
         const double steps = exact_slope(motor, at, change);
         const Screw* const own = screw(motor);
         return own == nullptr ? steps : own->slope(exact_place(motor, at)) * steps;
     }
     /// The place that a motor would have with an exact screw; `steps` is its place.
-    double without_screw(std::size_t motor, double steps) const {
+    double without_screw(MotorIndex motor, double steps) const {
         const Screw* const own = screw(motor);
         return own == nullptr ? steps : own->place(steps);
     }
     /// By how much more or less a motor moves at most because of its screw, as a share.
-    double screw_share(std::size_t motor) const {
+    double screw_share(MotorIndex motor) const {
         const Screw* const own = screw(motor);
         return own == nullptr ? 0 : own->most_slope();
     }
     /// Whether a motor follows a curve while the axes move in a line.
-    bool is_curved(std::size_t motor) const { return tower_of(motor) || has_bent_screw(motor); }
+    bool is_curved(MotorIndex motor) const { return tower_of(motor) || has_bent_screw(motor); }
     /// Whether some motor's slope changes while the axes move in this direction.
     template <typename Places>
     bool bends(const Places& direction) const {
         if (delta_ && (direction[delta_->axes[0]] != 0 || direction[delta_->axes[1]] != 0)) { return true; }
-        for (std::size_t m = 0; m < screws_.size(); ++m) {
+        for (const MotorIndex m : motor_indices(screws_.size())) {
             if (has_bent_screw(m) && shares_.place(m, direction) != 0) { return true; }
         }
         return false;
@@ -95,7 +96,7 @@ public:
     LinearMap motors_by_joints() const;
     /// The place of an axis; `joint(i)` is the place of a joint.
     template <typename Joint>
-    double axis_by_joints(std::size_t axis, Joint joint) const {
+    double axis_by_joints(AxisIndex axis, Joint joint) const {
         const auto coordinate = delta_ ? delta_->coordinate_of(axis) : std::nullopt;
         if (!coordinate) { return joint(axis); }
         std::array<double, DeltaMap::kTowers> heights{};
@@ -107,22 +108,22 @@ public:
     }
 
 private:
-    std::optional<std::size_t> tower_of(std::size_t motor) const {
+    std::optional<std::size_t> tower_of(MotorIndex motor) const {
         return delta_ ? delta_->tower_of(motor) : std::nullopt;
     }
-    bool has_bent_screw(std::size_t motor) const {
+    bool has_bent_screw(MotorIndex motor) const {
         const Screw* const own = screw(motor);
         return own != nullptr && own->most_bend() != 0;
     }
     /// The place and the slope of a motor with an exact screw.
     template <typename Places>
-    double exact_place(std::size_t motor, const Places& axes) const {
+    double exact_place(MotorIndex motor, const Places& axes) const {
         const auto tower = tower_of(motor);
         if (!tower) { return shares_.place(motor, axes); }
         return delta_->map.height_mm(*tower, delta_->point(axes)) * delta_->motor_steps_per_mm[*tower];
     }
-    template <typename Places>
-    double exact_slope(std::size_t motor, const Places& at, const Places& change) const {
+    template <typename Places, typename Changes>
+    double exact_slope(MotorIndex motor, const Places& at, const Changes& change) const {
         const auto tower = tower_of(motor);
         if (!tower) { return shares_.place(motor, change); }
         return delta_->map.rise_mm(*tower, delta_->point(at), delta_->point(change)) *

@@ -10,10 +10,6 @@
 namespace lockstep {
 namespace {
 
-std::size_t axis_named(const MachineConfig& machine, const std::string& name) {
-    return static_cast<std::size_t>(std::ranges::find(machine.axes, name, &AxisConfig::name) - machine.axes.begin());
-}
-
 /// Where a motor stands in the configuration: in an axis, with a block of its own or without, or as a board.
 struct MotorPlace {
     const AxisConfig* axis = nullptr;
@@ -28,27 +24,43 @@ struct MotorPlace {
     }
 };
 
-MotorPlace place_of(const MachineConfig& machine, std::size_t motor) {
+MotorPlace place_of(const MachineConfig& machine, MotorIndex motor) {
+    std::size_t left = motor;
     for (const AxisConfig& axis : machine.axes) {
         const std::size_t count = std::max<std::size_t>(axis.motors.size(), 1);
-        if (motor < count) { return {&axis, axis.motors.empty() ? nullptr : &axis.motors[motor], nullptr}; }
-        motor -= count;
+        if (left < count) { return {&axis, axis.motors.empty() ? nullptr : &axis.motors[left], nullptr}; }
+        left -= count;
     }
-    check(motor < machine.boards.size(), "the machine has the motor");
-    return {nullptr, nullptr, &machine.boards[motor]};
+    check(left < machine.boards.size(), "the machine has the motor");
+    return {nullptr, nullptr, &machine.boards[left]};
 }
 
-/// Calls visit(place of its axis, its axis, its block or null) for each moving motor, in order.
+/// A moving motor in the configuration.
+struct MotorAt {
+    MotorIndex motor;
+    AxisIndex axis;
+    const AxisConfig& config;  // of the axis
+    const MotorBlock* block;   // null: the motor has none
+};
+
+/// Calls visit(MotorAt) for each moving motor, in order.
 template <typename Visit>
 void each_motor(const MachineConfig& machine, Visit visit) {
-    for (std::size_t a = 0; a < machine.axes.size(); ++a) {
+    MotorIndex motor;
+    for (const AxisIndex a : axis_indices(machine.axes.size())) {
         const AxisConfig& axis = machine.axes[a];
-        if (axis.motors.empty()) { visit(a, axis, nullptr); }
-        for (const MotorBlock& block : axis.motors) { visit(a, axis, &block); }
+        if (axis.motors.empty()) {
+            visit(MotorAt{motor, a, axis, nullptr});
+            ++motor;
+        }
+        for (const MotorBlock& block : axis.motors) {
+            visit(MotorAt{motor, a, axis, &block});
+            ++motor;
+        }
     }
 }
 
-MotorConfig motor_of_axis(const AxisConfig& axis, std::size_t place) {
+MotorConfig motor_of_axis(const AxisConfig& axis, AxisIndex place) {
     return {.name = axis.name,
             .axis = place,
             .host = axis.host,
@@ -62,7 +74,7 @@ MotorConfig motor_of_axis(const AxisConfig& axis, std::size_t place) {
             .pins = axis.pins};
 }
 
-MotorConfig motor_of_block(const AxisConfig& axis, std::size_t place, const MotorBlock& block) {
+MotorConfig motor_of_block(const AxisConfig& axis, AxisIndex place, const MotorBlock& block) {
     MotorConfig motor = motor_of_axis(axis, place);
     motor.name = block.name;
     motor.host = block.host;
@@ -230,7 +242,7 @@ void take_up_backlash(MotorConfig& motor, const std::optional<BacklashConfig>& c
 }
 
 /// The points are those of the axis that the motor moves alone; otherwise of the motor's own way.
-double share_of_points(const LinearMap& map, std::size_t motor, std::size_t axis) {
+double share_of_points(const LinearMap& map, MotorIndex motor, AxisIndex axis) {
     return map.only_axis_of(motor) == axis ? map.factor(motor, axis) : 1;
 }
 
@@ -259,9 +271,7 @@ void correct_screw(MotorConfig& motor, const MotorBlock* block) {
 
 bool corrects_screws(const MachineConfig& machine) {
     bool has_screws = false;
-    each_motor(machine, [&](std::size_t, const AxisConfig& axis, const MotorBlock* block) {
-        has_screws = has_screws || !screw_of(axis, block).empty();
-    });
+    each_motor(machine, [&](const MotorAt& at) { has_screws = has_screws || !screw_of(at.config, at.block).empty(); });
     return has_screws;
 }
 
@@ -275,9 +285,8 @@ MachineConfig with_whole_parks(MachineConfig machine) {
     return machine;
 }
 
-void set_share(LinearMap& map, std::size_t motor, const MachineConfig& machine, const std::string& axis, double share) {
-    const std::size_t place = axis_named(machine, axis);
-    if (place < machine.axes.size()) { map.factor(motor, place) = share; }
+void set_share(LinearMap& map, std::size_t row, const MachineConfig& machine, const std::string& axis, double share) {
+    if (const auto place = machine.axis_named(axis)) { map.factor(row, *place) = share; }
 }
 
 }  // namespace
@@ -292,7 +301,7 @@ std::size_t motor_count(const MachineConfig& machine) { return moving_motor_coun
 
 std::vector<std::string> motor_names(const MachineConfig& machine) {
     std::vector<std::string> names;
-    for (std::size_t m = 0; m < motor_count(machine); ++m) { names.push_back(motor_name(machine, m)); }
+    for (const MotorIndex m : motor_indices(motor_count(machine))) { names.push_back(motor_name(machine, m)); }
     return names;
 }
 
@@ -302,23 +311,23 @@ std::vector<std::string> moving_motor_names(const MachineConfig& machine) {
     return names;
 }
 
-const std::string& motor_name(const MachineConfig& machine, std::size_t motor) {
+const std::string& motor_name(const MachineConfig& machine, MotorIndex motor) {
     return place_of(machine, motor).name();
 }
 
-bool estimates_clock(const MachineConfig& machine, std::size_t motor) {
+bool estimates_clock(const MachineConfig& machine, MotorIndex motor) {
     return machine.timing.time_source == TimeSource::Network || place_of(machine, motor).device().has_own_clock();
 }
 
-double motor_steps_per_mm(const MachineConfig& machine, std::size_t motor) {
+double motor_steps_per_mm(const MachineConfig& machine, MotorIndex motor) {
     const MotorPlace place = place_of(machine, motor);
     if (place.board != nullptr) { return motor_of_board(*place.board).steps_per_mm; }
     return place.block == nullptr ? place.axis->steps_per_mm
                                   : place.block->steps_per_mm.value_or(place.axis->steps_per_mm);
 }
 
-std::optional<std::size_t> motor_named(const MachineConfig& machine, std::string_view name) {
-    for (std::size_t m = 0; m < motor_count(machine); ++m) {
+std::optional<MotorIndex> motor_named(const MachineConfig& machine, std::string_view name) {
+    for (const MotorIndex m : motor_indices(motor_count(machine))) {
         if (motor_name(machine, m) == name) { return m; }
     }
     return std::nullopt;
@@ -327,17 +336,15 @@ std::optional<std::size_t> motor_named(const MachineConfig& machine, std::string
 LinearMap motor_map_of(const MachineConfig& machine) {
     const KinematicsConfig& kinematics = machine.kinematics;
     LinearMap map(moving_motor_count(machine), machine.axes.size());
-    std::size_t motor = 0;
-    each_motor(machine, [&](std::size_t a, const AxisConfig& axis, const MotorBlock*) {
-        map.factor(motor, a) = 1;
-        if (kinematics.core_xy && axis.name == kinematics.core_xy->first) {
-            set_share(map, motor, machine, kinematics.core_xy->second, 1);
+    each_motor(machine, [&](const MotorAt& at) {
+        map.factor(at.motor, at.axis) = 1;
+        if (kinematics.core_xy && at.config.name == kinematics.core_xy->first) {
+            set_share(map, at.motor, machine, kinematics.core_xy->second, 1);
         }
-        if (kinematics.core_xy && axis.name == kinematics.core_xy->second) {
-            set_share(map, motor, machine, kinematics.core_xy->first, 1);
-            map.factor(motor, a) = -1;
+        if (kinematics.core_xy && at.config.name == kinematics.core_xy->second) {
+            set_share(map, at.motor, machine, kinematics.core_xy->first, 1);
+            map.factor(at.motor, at.axis) = -1;
         }
-        ++motor;
     });
     for (const MotorRow& row : kinematics.matrix) {
         const auto found = motor_named(machine, row.motor);
@@ -348,8 +355,9 @@ LinearMap motor_map_of(const MachineConfig& machine) {
     for (const Skew& skew : kinematics.skews) {
         LinearMap shear = LinearMap::identity(machine.axes.size());
         constexpr double kMetre_mm = 1000;
-        const std::size_t x = axis_named(machine, skew.x);
-        if (x < machine.axes.size()) { set_share(shear, x, machine, skew.y, skew.mm_per_m / kMetre_mm); }
+        if (const auto x = machine.axis_named(skew.x)) {
+            set_share(shear, *x, machine, skew.y, skew.mm_per_m / kMetre_mm);
+        }
         map = map.after(shear);
     }
     if (const auto delta = delta_of(machine)) {
@@ -371,15 +379,15 @@ std::optional<MachineDelta> delta_of(const MachineConfig& machine) {
         const DeltaTower& tower = config->towers[k];
         towers[k] = {tower.x_mm, tower.y_mm, tower.rod_mm};
     }
-    MachineDelta delta{
-        .map = DeltaMap(towers),
-        .axes = {axis_named(machine, config->x), axis_named(machine, config->y), axis_named(machine, config->z)}};
+    MachineDelta delta{.map = DeltaMap(towers)};
+    const std::array names{config->x, config->y, config->z};
     for (std::size_t k = 0; k < towers.size(); ++k) {
         const auto motor = motor_named(machine, config->towers[k].motor);
-        if (!motor || *motor >= moving_motor_count(machine) || delta.axes[k] >= machine.axes.size() ||
-            !(towers[k].rod_mm > 0)) {
+        const auto axis = machine.axis_named(names[k]);
+        if (!motor || *motor >= moving_motor_count(machine) || !axis || !(towers[k].rod_mm > 0)) {
             return std::nullopt;
         }
+        delta.axes[k] = *axis;
         delta.motors[k] = *motor;
         delta.motor_steps_per_mm[k] = motor_steps_per_mm(machine, *motor);
         delta.axis_steps_per_mm[k] = machine.axes[delta.axes[k]].steps_per_mm;
@@ -397,17 +405,18 @@ std::vector<MotorConfig> moving_motors_of(const MachineConfig& given) {
     const LinearMap map = motor_map_of(machine);
     const auto delta = delta_of(machine);
     std::vector<MotorConfig> motors;
-    each_motor(machine, [&](std::size_t a, const AxisConfig& axis, const MotorBlock* block) {
+    each_motor(machine, [&](const MotorAt& at) {
+        const auto& [m, a, axis, block] = at;
         MotorConfig motor = block == nullptr ? motor_of_axis(axis, a) : motor_of_block(axis, a, *block);
-        const auto shares = map.row(motors.size());
+        const auto shares = map.row(m);
         set_limits(motor, machine, block, shares);
-        motor.moves_one_axis = map.only_axis_of(motors.size()) == a;
+        motor.moves_one_axis = map.only_axis_of(m) == a;
         scale(motor, block != nullptr && block->plant.has_value(), machine, shares);
-        const auto tower = delta ? delta->tower_of(motors.size()) : std::nullopt;
+        const auto tower = delta ? delta->tower_of(m) : std::nullopt;
         if (tower) { set_carriage(motor, block, machine, *delta, *tower); }
-        motor.screw = screw_of(screw_of(axis, block), share_of_points(map, motors.size(), a), 1);
+        motor.screw = screw_of(screw_of(axis, block), share_of_points(map, m, a), 1);
         correct_screw(motor, block);
-        take_up_backlash(motor, backlash_of(axis, block), share_of_points(map, motors.size(), a));
+        take_up_backlash(motor, backlash_of(axis, block), share_of_points(map, m, a));
         motors.push_back(std::move(motor));
     });
     return motors;
@@ -415,9 +424,7 @@ std::vector<MotorConfig> moving_motors_of(const MachineConfig& given) {
 
 bool has_backlash(const MachineConfig& machine) {
     bool has_any = false;
-    each_motor(machine, [&](std::size_t, const AxisConfig& axis, const MotorBlock* block) {
-        has_any = has_any || backlash_of(axis, block).has_value();
-    });
+    each_motor(machine, [&](const MotorAt& at) { has_any = has_any || backlash_of(at.config, at.block).has_value(); });
     return has_any;
 }
 
@@ -431,14 +438,13 @@ MotorMap step_map_of(const MachineConfig& machine) {
     LinearMap map = motor_map_of(machine);
     std::vector<Screw> screws;
     bool has_screws = false;
-    each_motor(machine, [&](std::size_t a, const AxisConfig& axis, const MotorBlock* block) {
-        const std::size_t motor = screws.size();
-        screws.push_back(
-            screw_of(screw_of(axis, block), share_of_points(map, motor, a), motor_steps_per_mm(machine, motor)));
+    each_motor(machine, [&](const MotorAt& at) {
+        screws.push_back(screw_of(screw_of(at.config, at.block), share_of_points(map, at.motor, at.axis),
+                                  motor_steps_per_mm(machine, at.motor)));
         has_screws = has_screws || !screws.back().is_exact();
     });
     if (!has_screws) { screws.clear(); }
-    for (std::size_t m = 0; m < map.motors(); ++m) {
+    for (const MotorIndex m : motor_indices(map.motors())) {
         for (std::size_t i = 0; i < map.axes(); ++i) {
             map.factor(m, i) *= motor_steps_per_mm(machine, m) / machine.axes[i].steps_per_mm;
         }

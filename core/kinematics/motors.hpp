@@ -17,9 +17,9 @@ namespace lockstep {
 /// the axis, where these differ. A board is a motor that has no axis and always rests at 0.
 struct MotorConfig {
     std::string name;
-    std::optional<std::size_t> axis;  // in whose configuration it stands; none: it is a board
-    bool moves_one_axis = true;       // its place is that of this axis; false: it also follows other axes
-    std::string host;                 // on which it runs; empty: any host
+    std::optional<AxisIndex> axis;  // in whose configuration it stands; none: it is a board
+    bool moves_one_axis = true;     // its place is that of this axis; false: it also follows other axes
+    std::string host;               // on which it runs; empty: any host
     DeviceName device;
     double steps_per_mm = 0;
     double start_velocity_mm_s = 0;
@@ -49,12 +49,12 @@ std::vector<MotorConfig> moving_motors_of(const MachineConfig& machine);  // wit
 /// These numbers and names are those of motors_of: with the boards.
 std::size_t motor_count(const MachineConfig& machine);
 std::vector<std::string> motor_names(const MachineConfig& machine);
-const std::string& motor_name(const MachineConfig& machine, std::size_t motor);
+const std::string& motor_name(const MachineConfig& machine, MotorIndex motor);
 /// Whether a motor estimates a clock to time its frames: the coordinator's, or its device's own.
-bool estimates_clock(const MachineConfig& machine, std::size_t motor);
-double motor_steps_per_mm(const MachineConfig& machine, std::size_t motor);
+bool estimates_clock(const MachineConfig& machine, MotorIndex motor);
+double motor_steps_per_mm(const MachineConfig& machine, MotorIndex motor);
 /// The number of the motor with this name; nullopt if there is none.
-std::optional<std::size_t> motor_named(const MachineConfig& machine, std::string_view name);
+std::optional<MotorIndex> motor_named(const MachineConfig& machine, std::string_view name);
 
 /// Some motor takes up backlash.
 bool has_backlash(const MachineConfig& machine);

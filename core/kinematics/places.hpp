@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/axis_set.hpp"
+#include "core/indices.hpp"
 #include "core/static_vector.hpp"
 #include "core/units.hpp"
 
@@ -17,7 +17,7 @@ struct MotorCounts {
     StaticVector<std::int64_t, kMaxAxes> steps;
 
     std::size_t size() const { return steps.size(); }
-    std::int64_t operator[](std::size_t motor) const { return steps[motor]; }
+    std::int64_t operator[](MotorIndex motor) const { return steps[motor]; }
     bool operator==(const MotorCounts&) const = default;
 };
 

@@ -18,14 +18,14 @@ AxisLimits with_reserves(const MachineConfig& machine, const Part& part, bool es
 
 }  // namespace
 
-AxisLimits frame_limits_of(const MachineConfig& machine, std::size_t motor) {
+AxisLimits frame_limits_of(const MachineConfig& machine, MotorIndex motor) {
     return with_reserves(machine, motors_of(machine)[motor], estimates_clock(machine, motor));
 }
 
 std::vector<AxisLimits> frame_limits_of(const MachineConfig& machine) {
     std::vector<AxisLimits> limits;
     for (const MotorConfig& motor : motors_of(machine)) {
-        limits.push_back(with_reserves(machine, motor, estimates_clock(machine, limits.size())));
+        limits.push_back(with_reserves(machine, motor, estimates_clock(machine, MotorIndex{limits.size()})));
     }
     return limits;
 }

@@ -23,7 +23,7 @@ inline constexpr double kCorrectionShare = 8e-3;  // of the acceleration, for co
 
 namespace lockstep {
 
-AxisLimits frame_limits_of(const MachineConfig& machine, std::size_t motor);
+AxisLimits frame_limits_of(const MachineConfig& machine, MotorIndex motor);
 /// The same limits of all motors, in the order of motors_of.
 std::vector<AxisLimits> frame_limits_of(const MachineConfig& machine);
 /// The limits of the axes themselves by the machine's file, with reserves if a motor estimates a clock.

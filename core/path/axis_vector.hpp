@@ -1,32 +1,35 @@
-// One number for each axis of a machine, in the order of its configuration.
+// One number for each axis of a machine, or for each row of a path.
 #pragma once
 
-#include <bit>
 #include <cmath>
 #include <span>
 
-#include "core/axis_set.hpp"
+#include "core/indices.hpp"
 #include "core/static_vector.hpp"
 
 namespace lockstep {
 
-/// Places in fractional steps, or slopes in steps per mm of path.
-using AxisVector = StaticVector<double, kMaxAxes>;
+/// One number in this unit for each axis, or row. Numbers in different units are of different types.
+template <typename Unit>
+class UnitVector : public StaticVector<double, kMaxAxes> {
+public:
+    using StaticVector::StaticVector;
+    static UnitVector zeros(std::size_t count) {
+        UnitVector v;
+        for (std::size_t i = 0; i < count; ++i) { v.append(0); }
+        return v;
+    }
+};
 
-inline AxisVector zeros(std::size_t axes) {
-    AxisVector v;
-    for (std::size_t i = 0; i < axes; ++i) { v.append(0); }
-    return v;
-}
-
-/// Calls visit(i) for each axis, or row, of a set, in ascending order.
-template <typename Visit>
-void each_of(AxisSet set, Visit visit) {
-    for (; set != 0; set &= set - 1) { visit(static_cast<std::size_t>(std::countr_zero(set))); }
-}
+/// Fractional steps.
+using PlaceVector = UnitVector<struct InSteps>;
+/// Steps per mm of path.
+using SlopeVector = UnitVector<struct InStepsPerMm>;
+/// Steps per mm^2 of path.
+using BendVector = UnitVector<struct InStepsPerSquareMm>;
 
 /// The distance of two places (in steps) in mm: the root of the sum of the axes' squares.
-inline double distance_mm(const AxisVector& a, const AxisVector& b, std::span<const double> steps_per_mm) {
+inline double distance_mm(const PlaceVector& a, const PlaceVector& b, std::span<const double> steps_per_mm) {
     double square = 0;
     for (std::size_t i = 0; i < steps_per_mm.size(); ++i) {
         const double mm = (b.begin()[i] - a.begin()[i]) / steps_per_mm[i];

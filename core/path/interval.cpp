@@ -21,12 +21,12 @@ void IntervalBounds::collect() const {
     const JoinedPiece& piece = *piece_;
     rows_.clear();
     bend_limit_.reset();
-    each_of(piece.rows & all_axes(setup_.rows()), [&](std::size_t i) {
+    for (const RowIndex i : piece.rows& RowSet::first(setup_.rows())) {
         const AxisLimits& limits = setup_.limits[i];
         const double charged = piece.is_charged ? piece.charged.begin()[i] : 0;
         rows_.append({piece.shape.slope.begin()[i], piece.shape.bend.begin()[i], charged, 2 * weaker(limits),
                       limits.max_velocity});
-    });
+    }
 }
 
 /// The greatest w that bends and charges allow.

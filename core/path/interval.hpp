@@ -24,10 +24,10 @@ namespace lockstep {
 /// A piece with the cost of its joints.
 struct JoinedPiece {
     Quadratic shape;
-    bool is_charged = false;     // jumps at its ends count as curvature: `charged` is used in place of bend
-    AxisVector charged;          // steps per mm^2
-    AxisSet rows = ~AxisSet{0};  // all that move in it, or in the pieces beside it
-    double begin_cap = kNoCap;   // w at its joints if they are slowed instead, so that the piece recovers their jumps
+    bool is_charged = false;  // jumps at its ends count as curvature: `charged` is used in place of bend
+    BendVector charged;
+    RowSet rows = RowSet::first(kMaxAxes);  // all that move in it, or in the pieces beside it
+    double begin_cap = kNoCap;  // w at its joints if they are slowed instead, so that the piece recovers their jumps
     double end_cap = kNoCap;
 
     static constexpr double kNoCap = 0x1p100;

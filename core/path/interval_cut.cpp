@@ -12,10 +12,10 @@ constexpr std::size_t kLeastParts = 4;  // of a piece that may be faster than th
 /// The angle by which the piece's direction changes over `length`, rad.
 double direction_change(const Quadratic& piece, double length, const PathSetup& setup) {
     double square = 0;
-    each_of(piece.moving >> setup.first_axis_row(), [&](std::size_t i) {
+    for (const RowIndex i : RowSet::of_bits(piece.moving.bits() >> setup.first_axis_row())) {
         const double bend = piece.bend.begin()[setup.first_axis_row() + i] / setup.steps_per_mm[i];
         square += bend * bend;
-    });
+    }
     return std::sqrt(square) * length;
 }
 
@@ -31,12 +31,12 @@ Interval IntervalCut::whole(const JoinedPiece& piece, const Neighbours& beside) 
     Interval whole{.kind = kind_of(piece), .from = beside.from, .to = piece.shape.length, .joint = kMost};
     if (whole.kind != IntervalKind::Straight) { return whole; }
     whole.acceleration = whole.deceleration = kMost;
-    each_of(piece.shape.moving, [&](std::size_t i) {
+    for (const RowIndex i : piece.shape.moving) {
         const double slope = std::abs(piece.shape.slope.begin()[i]);
-        if (slope <= kNothing) { return; }
+        if (slope <= kNothing) { continue; }
         whole.acceleration = std::min(whole.acceleration, setup_.limits[i].max_acceleration / slope);
         whole.deceleration = std::min(whole.deceleration, setup_.limits[i].max_deceleration / slope);
-    });
+    }
     return whole;
 }
 

@@ -11,16 +11,16 @@ public:
     static constexpr double kLeastMove_mm = ChordJoiner::kLeast_mm;
 
     /// Sets the programmed place at the begin, which is less than a step from the place of rest. Arcs need it.
-    void begin_program_at(const AxisVector& steps) { geometry_.begin_program_at(steps); }
+    void begin_program_at(const PlaceVector& steps) { geometry_.begin_program_at(steps); }
 
     /// `block`: the move's number in its program. Numbers ascend. `to` is in steps, also fractional ones. Moves end
     /// within the travel. Programmed places may be up to half a step beyond it; they determine the shape of an arc.
-    void line_to_steps(const AxisVector& to, const MoveSettings& settings, std::uint32_t block) {
+    void line_to_steps(const PlaceVector& to, const MoveSettings& settings, std::uint32_t block) {
         geometry_.line(to, settings, block);
         pass_on();
     }
     /// Begins an arc. How much of it is cut at once depends on the path. The next move cuts what is left of it.
-    void begin_arc_to_steps(const ArcShape& shape, const AxisVector& to, const MoveSettings& settings,
+    void begin_arc_to_steps(const ArcShape& shape, const PlaceVector& to, const MoveSettings& settings,
                             std::uint32_t block) {
         geometry_.begin_arc(shape, to, settings, block);
         pass_arc();

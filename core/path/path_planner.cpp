@@ -50,7 +50,7 @@ void PathPlanner::cut_on() {
     pass_on();
 }
 
-void PathPlanner::arc_to_steps(const ArcShape& shape, const AxisVector& to, const MoveSettings& settings,
+void PathPlanner::arc_to_steps(const ArcShape& shape, const PlaceVector& to, const MoveSettings& settings,
                                std::uint32_t block) {
     begin_arc_to_steps(shape, to, settings, block);
     while (has_more()) { cut_on(); }

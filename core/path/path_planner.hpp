@@ -40,7 +40,7 @@ public:
     void arc(const PathArc& arc, const MoveSettings& settings, std::uint32_t block) {
         arc_to_steps(arc.shape, setup_.to_steps(arc.to_mm), settings, block);
     }
-    void arc_to_steps(const ArcShape& shape, const AxisVector& to, const MoveSettings& settings, std::uint32_t block);
+    void arc_to_steps(const ArcShape& shape, const PlaceVector& to, const MoveSettings& settings, std::uint32_t block);
 
     /// Applies new overrides from the next node of the path behind the last frame on. Unless it returns Taken, the
     /// previous ones still hold. If it returns CannotFollow, the axes may be able to follow behind a later frame.

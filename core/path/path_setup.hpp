@@ -40,18 +40,18 @@ struct PathSetup {
     std::size_t rows() const { return limits.size(); }
     bool has_map() const { return motor_map.axes() > 0; }
     std::size_t first_axis_row() const { return motor_map.motors(); }
-    const AxisLimits& limits_of_axis(std::size_t axis) const { return limits[first_axis_row() + axis]; }
-    double step_of_motors(std::size_t axis) const { return has_map() ? motor_step[axis] : 1; }
+    const AxisLimits& limits_of_axis(AxisIndex axis) const { return limits[first_axis_row() + axis]; }
+    double step_of_motors(AxisIndex axis) const { return has_map() ? motor_step[axis] : 1; }
     /// The motors are moved by `map`. `limits` are those of the motors so far; `axes` are appended.
     void use_map(const MotorMap& map, std::span<const AxisLimits> axes);
-    AxisVector to_steps(std::span<const double> mm) const {
-        AxisVector steps;
+    PlaceVector to_steps(std::span<const double> mm) const {
+        PlaceVector steps;
         for (std::size_t i = 0; i < axes(); ++i) { steps.append(mm[i] * steps_per_mm[i]); }
         return steps;
     }
     /// Moves a place beyond the travel, which rounds to its last step, to this step.
-    AxisVector within_travel(AxisVector at) const {
-        for (std::size_t i = 0; i < axes(); ++i) {
+    PlaceVector within_travel(PlaceVector at) const {
+        for (const AxisIndex i : axis_indices(axes())) {
             const AxisLimits& axis = limits_of_axis(i);
             at[i] = std::clamp(at[i], static_cast<double>(axis.min_steps), static_cast<double>(axis.max_steps));
         }
@@ -63,7 +63,7 @@ inline void PathSetup::use_map(const MotorMap& map, std::span<const AxisLimits> 
     motor_map = map;
     limits.insert(limits.end(), axes.begin(), axes.end());
     motor_step.assign(map.axes(), std::numeric_limits<double>::infinity());
-    for (std::size_t m = 0; m < map.motors(); ++m) {
+    for (const MotorIndex m : motor_indices(map.motors())) {
         double sum = 0;
         for (const double share : map.shares().row(m)) { sum += std::abs(share); }
         sum *= 1 + map.screw_share(m);

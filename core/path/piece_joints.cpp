@@ -18,18 +18,18 @@ Joint PieceJoints::joint(const Quadratic* before, const Quadratic* after, double
     const bool is_stop = before == nullptr || after == nullptr;
     const bool is_rest = (before != nullptr && before->length == 0) || (after != nullptr && after->length == 0);
     const bool is_aside = (before != nullptr && before->is_aside) || (after != nullptr && after->is_aside);
-    each_of(Neighbours{before, after}.moving(), [&](std::size_t i) {
+    for (const RowIndex i : Neighbours{before, after}.moving()) {
         const double t0 = before == nullptr || before->length == 0 ? 0 : before->slope_at(i, before->length);
         const double t1 = after == nullptr || after->length == 0 ? 0 : after->slope_at(i, before == nullptr ? from : 0);
         const double jump = std::abs(t1 - t0);
-        if (jump < kNothing) { return; }
+        if (jump < kNothing) { continue; }
         const double start = setup_.limits[i].start_velocity;
         const bool is_followed = is_aside || (is_rest && !is_stop);
         const double share = is_followed ? kRestShare : is_stop ? kStopShare : kJointShare;
         const double speed = share * start / jump;
         joint.cap = std::min(joint.cap, speed * speed);
         joint.jump = std::max(joint.jump, jump / start);
-    });
+    }
     return joint;
 }
 
@@ -73,10 +73,10 @@ PieceJoints::FastPassage PieceJoints::fast_passage(const JoinedPiece& piece, con
     const Interval whole{.kind = kind, .from = from, .to = shape.length};
     const double top = IntervalBounds(setup_, piece, whole).cap(overrides_);
     double path_acceleration = kMost;
-    each_of(shape.moving, [&](std::size_t i) {
+    for (const RowIndex i : shape.moving) {
         const double slope = std::abs(shape.slope.begin()[i]);
         if (slope > kNothing) { path_acceleration = std::min(path_acceleration, weaker(setup_.limits[i]) / slope); }
-    });
+    }
     const double w0 = std::min({beside.begin.cap, top, piece.begin_cap});
     const double w1 = std::min({beside.end.cap, top, piece.end_cap});
     return {w0, w1, top, path_acceleration, whole};
@@ -99,17 +99,17 @@ void PieceJoints::charge(JoinedPiece& piece, const Neighbours& beside) const {
     const bool follows = beside.follows();
     const bool goes_on = beside.goes_on();
     piece.is_charged = false;
-    each_of(piece.rows, [&](std::size_t i) {
+    for (const RowIndex i : piece.rows) {
         const double jump0 = follows ? shape.slope_at(i, 0) - before->slope_at(i, before->length) : 0;
         const double jump1 = goes_on ? next->slope_at(i, 0) - shape.slope_at(i, shape.length) : 0;
         const double jumps = (jump0 * fast.v0 + jump1 * fast.v1) / 2;
         const double recovered =
             shape.is_straight ? fast.recovers(shape.slope[i], weaker(setup_.limits[i]), jumps > 0) : 0;
-        if (std::abs(jumps) <= recovered) { return; }
+        if (std::abs(jumps) <= recovered) { continue; }
         if (!piece.is_charged) { piece.charged = shape.bend; }
         piece.is_charged = true;
         piece.charged[i] += (jump0 + jump1) / (2 * length);
-    });
+    }
 }
 
 /// Slows the joints in place of the charge, if that takes less time. This is so for a long piece with a joint from

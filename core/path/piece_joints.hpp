@@ -25,7 +25,9 @@ struct Neighbours {
     Joint end;
 
     /// The rows that move beside a piece.
-    AxisSet moving() const { return (before != nullptr ? before->moving : 0) | (next != nullptr ? next->moving : 0); }
+    RowSet moving() const {
+        return (before != nullptr ? before->moving : RowSet{}) | (next != nullptr ? next->moving : RowSet{});
+    }
     bool follows() const { return before != nullptr && before->moves_on(); }
     bool goes_on() const { return next != nullptr && next->moves_on(); }
 };

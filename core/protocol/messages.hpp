@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "core/axis_set.hpp"
 #include "core/faults.hpp"
 #include "core/hardware/output_change.hpp"
+#include "core/indices.hpp"
 #include "core/overrides.hpp"
 #include "core/path_place.hpp"
 #include "core/pause.hpp"
@@ -70,7 +70,7 @@ struct MotorOutputs {
 
 /// An input of a probe.
 struct TouchInput {
-    std::uint32_t motor = 0;   // whose device has it
+    MotorIndex motor;          // whose device has it
     std::uint8_t channel = 0;  // of the device
     bool operator==(const TouchInput&) const = default;
 
@@ -136,7 +136,7 @@ struct Switches {
 /// The state that an axis publishes once a slot. Others know nothing else of the axis.
 struct AxisState {
     Identity identity = 0;
-    std::uint32_t axis = 0;  // its place in the configuration
+    std::uint32_t axis = 0;  // the place of its motor
     Slot stamp = 0;
     Epoch epoch = 0;                  // the newest epoch it has taken frames of
     FrameNumber held = 0;             // every frame up to this one is held; 0: none
@@ -167,6 +167,8 @@ struct AxisState {
     AnalogLevels analog{};                   // what the analog outputs of its device show
     std::optional<EpochTouch> touch;         // of the newest epoch, if it ends at an input of this device
     bool operator==(const AxisState&) const = default;
+
+    MotorIndex motor() const { return MotorIndex{axis}; }
 };
 
 /// An axis asks for machine time. The coordinator's process answers at once, independently of its loop; see core/clock.
@@ -293,8 +295,8 @@ struct MachineState {
     bool lacks_blocks = false;              // the machine waits for more of the program
     double progress = 0;                    // 0 ... 1 of the job's planned time
     double remaining_s = 0;
-    Overrides overrides;       // for what is planned from now on
-    AxisSet axes_present = 0;  // the axes that the coordinator receives
+    Overrides overrides;      // for what is planned from now on
+    MotorSet motors_present;  // those whose processes the coordinator receives
     std::uint64_t config_hash = 0;
     ProgramDevices devices;  // as the words of programs have switched them
     std::optional<Epoch>
@@ -352,7 +354,7 @@ enum class CommandKind : std::uint8_t {
 
 /// One axis of a jog.
 struct JogAxis {
-    std::uint32_t axis = 0;
+    AxisIndex axis;
     double speed_mm_s = 0;              // the greatest speed; its sign is the direction
     std::optional<double> distance_mm;  // the greatest distance, above 0; nullopt: to the end of the travel
     bool operator==(const JogAxis&) const = default;
@@ -364,7 +366,7 @@ struct Command {
     Identity client = 0;
     std::uint64_t sequence = 0;
     CommandKind kind = CommandKind::Stop;
-    AxisSet axes = 0;                  // Home: the axes to home; none means all
+    AxisSet axes;                      // Home: the axes to home; none means all
     std::uint64_t program = 0;         // Move, Run, MoveOwn: the program that was sent before in chunks
     std::optional<Ticks> ticks;        // MoveOwn: how long each axis's move lasts; nullopt: as fast as its limits allow
     std::optional<int> feed_percent;   // Override; nullopt: unchanged

@@ -16,7 +16,7 @@ std::expected<std::unique_ptr<AxisLink>, std::string> open_link(const AxisNetwor
     if (!bus) { return std::unexpected(bus.error()); }
     auto link = std::make_unique<AxisLink>(std::move(*bus), nullptr);
     if (setup.machine.timing.time_source == TimeSource::Network) {
-        const ClockAsker asker(setup.axis, setup.identity, setup.machine.tick_ns);
+        const ClockAsker asker(static_cast<std::uint32_t>(setup.motor), setup.identity, setup.machine.tick_ns);
         link->clock =
             std::make_unique<ClockClient>(link->bus.participant, asker, [clock = setup.clock] { return clock.now(); });
     }
@@ -47,7 +47,7 @@ std::expected<AxisNetwork, std::string> AxisNetwork::open(const Setup& setup) {
 }
 
 /// Receiving allocates no memory after a stall either, when more states wait than ever before.
-AxisNetwork::AxisNetwork(const Setup& setup, std::unique_ptr<Link> link) : axis_(setup.axis), link_(std::move(link)) {
+AxisNetwork::AxisNetwork(const Setup& setup, std::unique_ptr<Link> link) : motor_(setup.motor), link_(std::move(link)) {
     received_.states.reserve(Reader<AxisState>::most_waiting(motor_count(setup.machine)));
 }
 
@@ -59,14 +59,14 @@ const AxisReceived& AxisNetwork::receive() {
     if (link->clock) { link->clock->take(received_.exchanges); }
     bus.frames.take([&](Frame&& m) { received_.frames.push_back(m); });
     bus.states.take([&](AxisState&& m) {
-        axes_received_ |= axis_bit(m.axis);
+        motors_received_.insert(m.motor());
         received_.states.push_back(m);
     });
     bus.machine.take([&](MachineState&& m) {
-        others_ = m.axes_present & ~axis_bit(axis_);
+        others_ = m.motors_present - MotorSet{motor_};
         if (m.phase != MachinePhase::Standby) {
             acknowledged_.is_owner_received = true;
-            acknowledged_.is_received |= has_axis(m.axes_present, axis_);
+            acknowledged_.is_received |= m.motors_present.contains(motor_);
         }
         received_.machine.push_back(m);
     });
@@ -89,7 +89,7 @@ std::string AxisNetwork::host_of_rival() const {
     if (link == nullptr) { return ""; }
     for (const PresentProcess& process : present_processes(link->bus.participant)) {
         const bool is_this = process.pid == getpid() && process.host == host_name();
-        if (process.axis == axis_ && !is_this) { return process.host; }
+        if (process.motor == motor_ && !is_this) { return process.host; }
     }
     return "";
 }
@@ -102,11 +102,11 @@ Reception AxisNetwork::look(const AxisLink& link, bool at_rest) {
     const AxisBus& bus = link.bus;
     topics_ = {bus.frames.reception(), bus.states.reception(), bus.machine.reception(), bus.commands.reception(),
                bus.requests.reception()};
-    const AxisSet received = std::exchange(axes_received_, 0);
+    const MotorSet received = std::exchange(motors_received_, {});
     const bool is_machine_received = std::exchange(machine_received_, false);
     const Acknowledged by = std::exchange(acknowledged_, {});
-    const bool is_axis_silent = bus.states.matched() > static_cast<std::uint32_t>(std::popcount(received)) ||
-                                (is_machine_received && (others_ & ~received) != 0);
+    const bool is_axis_silent =
+        bus.states.matched() > received.size() || (is_machine_received && !received.contains(others_));
     return {.change = change_of(bus),
             .is_peer_silent = is_axis_silent || (bus.machine.matched() > 0 && !is_machine_received),
             .is_peer_missing = !is_machine_received,

@@ -38,7 +38,7 @@ class AxisNetwork {
 public:
     struct Setup {
         MachineConfig machine;
-        std::uint32_t axis = 0;
+        MotorIndex motor;
         Identity identity = 0;
         MachineClock clock;
         Membership membership;
@@ -68,11 +68,11 @@ private:
     AxisNetwork(const Setup& setup, std::unique_ptr<Link> link);
     Reception look(const AxisLink& link, bool at_rest);
 
-    std::uint32_t axis_;
+    MotorIndex motor_;
     std::unique_ptr<Link> link_;
     AxisReceived received_;
-    AxisSet others_ = 0;         // other axes that the coordinator reports as present
-    AxisSet axes_received_ = 0;  // since the last check
+    MotorSet others_;           // other motors that the coordinator reports as present
+    MotorSet motors_received_;  // since the last check
     bool machine_received_ = false;
     /// Since the last check.
     struct Acknowledged {

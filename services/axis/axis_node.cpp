@@ -12,10 +12,10 @@ namespace lockstep {
 
 AxisNode::AxisNode(const Setup& setup, OpenDevice open)
     : device_(setup.machine, std::move(open)),
-      controller_(setup.axis, setup.machine, setup.identity, setup.config_hash, methods::begin_steps, setup.kept),
-      time_(setup.axis, setup.machine),
+      controller_(setup.motor, setup.machine, setup.identity, setup.config_hash, methods::begin_steps, setup.kept),
+      time_(setup.motor, setup.machine),
       clock_reset_(setup.machine.tick_ns),
-      edges_(setup_of(setup.machine, motors_of(setup.machine)[setup.axis]).debounce) {}
+      edges_(setup_of(setup.machine, motors_of(setup.machine)[setup.motor]).debounce) {}
 
 const AxisOutputs& AxisNode::step(Tick own, const AxisMail& mail, const OnStep& on_step) {
     decide(own, mail, on_step);

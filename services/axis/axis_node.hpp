@@ -30,7 +30,7 @@ struct AxisMail {
 class AxisNode {
 public:
     struct Setup {
-        std::size_t axis = 0;
+        MotorIndex motor;
         MachineConfig machine;
         Identity identity = 0;
         std::uint64_t config_hash = 0;

@@ -68,8 +68,8 @@ void report_disk_failure(const std::string& why) {
                 "; set position_directory to a directory that can be written");
 }
 
-KeptOrNot kept_position(const MachineConfig& machine, std::size_t axis) {
-    ReadPosition read = read_position(position_file(machine, axis));
+KeptOrNot kept_position(const MachineConfig& machine, MotorIndex motor) {
+    ReadPosition read = read_position(position_file(machine, motor));
     if (!read.trouble.empty()) { log_warning("the kept position is refused: " + read.trouble); }
     return std::move(read.kept);
 }
@@ -82,14 +82,14 @@ public:
         : setup_(setup),
           device_(device.text()),
           clock_(clock),
-          node_(setup, opener_of(device, motors_of(setup.machine)[setup.axis], clock, setup.machine)),
+          node_(setup, opener_of(device, motors_of(setup.machine)[setup.motor], clock, setup.machine)),
           network_(std::move(network)),
           sink_(std::move(sink)),
-          flight_log_(open_flight(setup.machine, motor_name(setup.machine, setup.axis), setup.identity)),
-          flight_(setup.axis, setup.machine, *flight_log_),
-          recorder_(setup.machine, setup.axis, setup.identity, *sink_),
-          keeper_(position_file(setup.machine, setup.axis), report_disk_failure),
-          meter_(setup.axis, setup.identity, setup.machine.tick_ns) {
+          flight_log_(open_flight(setup.machine, motor_name(setup.machine, setup.motor), setup.identity)),
+          flight_(setup.motor, setup.machine, *flight_log_),
+          recorder_(setup.machine, setup.motor, setup.identity, *sink_),
+          keeper_(position_file(setup.machine, setup.motor), report_disk_failure),
+          meter_(setup.motor, setup.identity, setup.machine.tick_ns) {
         node_.measure(meter_);
         node_.note_in(flight_);
         node_.pass_channels([this](const ChannelEvent& event) { recorder_.channel(event); });
@@ -137,7 +137,7 @@ private:
         const AxisReceived& in = network_.receive();
         const Slot slot = rules::slot_of(node_.now(), setup_.machine.slot_ticks());
         for (const AxisState& state : in.states) {
-            if (state.axis == setup_.axis && state.identity != setup_.identity) { meet_rival(state, slot); }
+            if (state.axis == setup_.motor && state.identity != setup_.identity) { meet_rival(state, slot); }
         }
         const auto owns = [](const MachineState& m) { return m.phase != MachinePhase::Standby; };
         if (std::ranges::any_of(in.machine, owns)) { machine_received_ = clock_.now(); }
@@ -222,8 +222,8 @@ private:
             node_.clock_error().value * setup_.machine.tick_ns / 1'000'000'000, own_label());
     }
 
-    const std::string& own_name() const { return motor_name(setup_.machine, setup_.axis); }
-    std::string own_label() const { return Kinematics(setup_.machine).label(setup_.axis); }
+    const std::string& own_name() const { return motor_name(setup_.machine, setup_.motor); }
+    std::string own_label() const { return Kinematics(setup_.machine).label(setup_.motor); }
 
     AxisNode::Setup setup_;
     std::string device_;  // its name
@@ -250,20 +250,20 @@ private:
     std::string end_reason_;
 };
 
-int run(const AxisServiceOptions& options, const MachineConfig& machine, std::size_t axis, const DeviceName& device) {
+int run(const AxisServiceOptions& options, const MachineConfig& machine, MotorIndex motor, const DeviceName& device) {
     StopSignal stop;
     const EndGuard guard(stop);
     for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
     const MachineClock clock(machine.tick_ns, machine.timing.time_source, options.clock_error);
-    const AxisNode::Setup setup{axis, machine, static_cast<Identity>(monotonic_now().count()), config_hash(machine),
-                                kept_position(machine, axis)};
-    const auto admission = admit_service(machine, axis_member(machine, axis));
+    const AxisNode::Setup setup{motor, machine, static_cast<Identity>(monotonic_now().count()), config_hash(machine),
+                                kept_position(machine, motor)};
+    const auto admission = admit_service(machine, axis_member(machine, motor));
     if (!admission) { return end_with_failure(admission.error()); }
-    auto network = AxisNetwork::open({machine, static_cast<std::uint32_t>(axis), setup.identity, clock, *admission});
+    auto network = AxisNetwork::open({machine, motor, setup.identity, clock, *admission});
     if (!network) { return end_with_failure(network.error()); }
     AxisService service(setup, device, clock, std::move(*network),
-                        open_record(machine, motor_name(machine, axis), options.record));
-    const std::string label = Kinematics(machine).label(axis);
+                        open_record(machine, motor_name(machine, motor), options.record));
+    const std::string label = Kinematics(machine).label(motor);
     log_info(fmt::format("{} of machine {} is up, device {}", label, machine.name, device.text()));
 
     ServiceManager manager;
@@ -289,9 +289,9 @@ int serve_axis(const AxisServiceOptions& options) {
     const auto loaded = load_machine(options.machine_file);
     if (!loaded) { return end_with_bad_input(to_text(options.machine_file.string(), loaded.error())); }
     const MachineConfig& machine = loaded->config;
-    const auto axis = axis_to_run(machine, options.axis, host_name());
-    if (!axis) { return end_with_bad_input(options.machine_file.string() + ": " + axis.error()); }
-    const MotorConfig config = motors_of(machine)[*axis];
+    const auto motor = axis_to_run(machine, options.axis, host_name());
+    if (!motor) { return end_with_bad_input(options.machine_file.string() + ": " + motor.error()); }
+    const MotorConfig config = motors_of(machine)[*motor];
     const auto device = options.fpga.empty() ? std::optional(config.device) : read_device_name(options.fpga);
     if (!device) { return end_with_bad_input(fmt::format("--fpga {}: it must be {}", options.fpga, kDeviceNames)); }
     if (options.clock_error != ClockError{} && machine.timing.time_source != TimeSource::Network) {
@@ -301,17 +301,17 @@ int serve_axis(const AxisServiceOptions& options) {
     if (options.clock_error != ClockError{} && device->kind != DeviceName::Kind::Simulated) {
         return end_with_bad_input("--clock-error needs --fpga sim, because the clock of lockstep-fpga has no error");
     }
-    if (device->has_own_clock() && !estimates_clock(machine, *axis)) {
+    if (device->has_own_clock() && !estimates_clock(machine, *motor)) {
         return end_with_bad_input("--fpga " + options.fpga +
                                   ": such a device has a clock of its own, for which the frames must leave room; set "
                                   "it in the machine's file, as `device` of " +
-                                  Kinematics(machine).label(*axis) + ", so that the coordinator knows");
+                                  Kinematics(machine).label(*motor) + ", so that the coordinator knows");
     }
     if (auto log = open_log({"axis", config.name, options.log_file, true}); !log) {
         return end_with_bad_input(log.error());
     }
     if (!loaded->settings.empty()) { log_info(settings_notice(loaded->settings)); }
-    return run(options, machine, *axis, *device);
+    return run(options, machine, *motor, *device);
 }
 
 }  // namespace lockstep

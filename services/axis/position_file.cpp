@@ -33,11 +33,11 @@ std::string refusal_of(const struct stat& file) {
 
 }  // namespace
 
-std::filesystem::path position_file(const MachineConfig& machine, std::size_t axis) {
+std::filesystem::path position_file(const MachineConfig& machine, MotorIndex motor) {
     const std::filesystem::path directory = machine.position_directory.empty()
                                                 ? position_directory(machine.name)
                                                 : std::filesystem::path(machine.position_directory);
-    return directory / (motor_name(machine, axis) + ".textproto");
+    return directory / (motor_name(machine, motor) + ".textproto");
 }
 
 ReadPosition read_position(const std::filesystem::path& path) {

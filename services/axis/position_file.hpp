@@ -13,7 +13,7 @@
 namespace lockstep {
 
 /// Returns DIRECTORY/AXIS.textproto. DIRECTORY comes from the machine's file, otherwise from the host.
-std::filesystem::path position_file(const MachineConfig& machine, std::size_t axis);
+std::filesystem::path position_file(const MachineConfig& machine, MotorIndex motor);
 
 struct ReadPosition {
     KeptOrNot kept;

@@ -18,12 +18,6 @@ std::expected<std::unique_ptr<CoordinatorLink>, std::string> open_link(const Coo
     return link;
 }
 
-AxisSet all_axes(const MachineConfig& machine) {
-    AxisSet axes = 0;
-    for (std::size_t i = 0; i < motor_count(machine); ++i) { axes |= axis_bit(i); }
-    return axes;
-}
-
 }  // namespace
 
 void CoordinatorReceived::clear() {
@@ -44,7 +38,7 @@ std::expected<CoordinatorNetwork, std::string> CoordinatorNetwork::open(const Se
 
 /// Receiving allocates no memory after a stall either, when more messages wait than ever before.
 CoordinatorNetwork::CoordinatorNetwork(const MachineConfig& machine, std::unique_ptr<Link> link)
-    : axes_(all_axes(machine)), link_(std::move(link)) {
+    : motors_(MotorSet::first(motor_count(machine))), link_(std::move(link)) {
     received_.states.reserve(Reader<AxisState>::most_waiting(motor_count(machine)));
     received_.healths.reserve(Reader<AxisHealth>::most_waiting(motor_count(machine)));
 }
@@ -57,7 +51,7 @@ const CoordinatorReceived& CoordinatorNetwork::receive() {
     bus.chunks.take([&](ProgramChunk&& m) { received_.chunks.push_back(std::move(m)); });
     bus.healths.take([&](AxisHealth&& m) { received_.healths.push_back(m); });
     bus.states.take([&](AxisState&& m) {
-        axes_received_ |= axis_bit(m.axis);
+        motors_received_.insert(m.motor());
         is_owner_received_ = is_owner_received_ || m.hears_owner;
         received_.states.push_back(m);
     });
@@ -94,12 +88,12 @@ Reception CoordinatorNetwork::look(const CoordinatorLink& link, Duty duty) {
     const CoordinatorBus& bus = link.bus;
     topics_ = {bus.states.reception(), bus.other_coordinators.reception(), bus.commands.reception(),
                bus.chunks.reception()};
-    const AxisSet received = std::exchange(axes_received_, 0);
+    const MotorSet received = std::exchange(motors_received_, {});
     const bool is_owner_received = std::exchange(is_owner_received_, false);
     return {.change = change_of(bus),
-            .is_peer_silent = bus.states.matched() > static_cast<std::uint32_t>(std::popcount(received)),
-            .is_peer_missing = (axes_ & ~received) != 0,
-            .is_unreceived = duty.owns_machine && received != 0 && !is_owner_received,
+            .is_peer_silent = bus.states.matched() > received.size(),
+            .is_peer_missing = !received.contains(motors_),
+            .is_unreceived = duty.owns_machine && !received.empty() && !is_owner_received,
             .may_reopen = duty.at_rest,
             .topics = topics_};
 }

@@ -71,10 +71,10 @@ private:
     CoordinatorNetwork(const MachineConfig& machine, std::unique_ptr<Link> link);
     Reception look(const CoordinatorLink& link, Duty duty);
 
-    AxisSet axes_;  // all axes of the machine
+    MotorSet motors_;  // all of the machine
     std::unique_ptr<Link> link_;
     CoordinatorReceived received_;
-    AxisSet axes_received_ = 0;       // since the last check
+    MotorSet motors_received_;        // since the last check
     bool is_owner_received_ = false;  // since the last check, an axis received the owner
     std::vector<TopicReception> topics_;
     std::uint64_t refused_now_ = 0;     // by the link that is open now

@@ -105,7 +105,7 @@ private:
         read_chunks(received.chunks);
         for (const AxisState& state : received.states) {
             if (state.axis >= motor_count(machine_)) { continue; }
-            received_axes_ |= axis_bit(state.axis);
+            received_.insert(state.motor());
             config_hashes_[state.axis] = state.config_hash;
         }
         for (const AxisHealth& health : received.healths) { recorder_.note_axis(health); }
@@ -188,13 +188,14 @@ private:
 
     /// "axis X", "motor Y2"
     std::string label_of(std::uint64_t motor) const {
-        return motor < kinematics_.motors().size() ? kinematics_.label(motor) : fmt::format("axis {}", motor);
+        return motor < kinematics_.motors().size() ? kinematics_.label(MotorIndex{motor})
+                                                   : fmt::format("axis {}", motor);
     }
 
     std::string cause_of(const CoordinatorNotice& fault, const FaultText& text) const {
         const bool has_motor = is_of_an_axis(fault.fault) && fault.number < motor_count(machine_);
         const std::string inputs =
-            has_motor ? causes_of(machine_, motor_name(machine_, fault.number), fault.fault) : "";
+            has_motor ? causes_of(machine_, motor_name(machine_, MotorIndex{fault.number}), fault.fault) : "";
         return std::string(text.cause) + (inputs.empty() ? "" : ": " + inputs);
     }
 
@@ -284,20 +285,18 @@ private:
         const Ticks period{5'000'000'000 / machine_.tick_ns};
         if (now - reported_ < period) { return; }
         reported_ = now;
-        for (std::size_t i = 0; i < motor_count(machine_); ++i) {
-            if (!has_axis(received_axes_, i)) {
-                log_info("waits for " + label_of(i) + " " + network_.place_of_states());
-            }
+        for (const MotorIndex i : motor_indices(motor_count(machine_))) {
+            if (!received_.contains(i)) { log_info("waits for " + label_of(i) + " " + network_.place_of_states()); }
         }
-        for (std::size_t axis = 0; axis < motor_count(machine_); ++axis) {
-            const std::uint64_t hash = config_hashes_[axis];
-            if (!has_axis(received_axes_, axis) || hash == config_hash_) { continue; }
+        for (const MotorIndex motor : motor_indices(motor_count(machine_))) {
+            const std::uint64_t hash = config_hashes_[motor];
+            if (!received_.contains(motor) || hash == config_hash_) { continue; }
             log_warning(
                 "{} runs configuration {:x}, this coordinator {:x}: the machine does not move; give all hosts the "
                 "same machine file, then: lockstep down; lockstep up",
-                label_of(axis), hash, config_hash_);
+                label_of(motor), hash, config_hash_);
         }
-        received_axes_ = 0;
+        received_ = {};
         if (const std::uint64_t lost = sink_->failures(); lost != lost_records_) {
             lost_records_ = lost;
             log_warning(lost_records_text(machine_, lost));
@@ -331,7 +330,7 @@ private:
     std::atomic<Tick> looped_;           // when the loop last ran
     Tick reported_ = clock_.now();
     std::optional<HeldLease> logged_lease_;
-    AxisSet received_axes_ = 0;
+    MotorSet received_;
     std::array<std::uint64_t, kMaxAxes> config_hashes_{};  // of the axes received so far
     std::uint64_t config_hash_ = config_hash(machine_);
     std::uint64_t refused_ = 0;

@@ -14,9 +14,9 @@ std::string_view without_domain(std::string_view host) { return host.substr(0, h
 
 bool is_placed(const std::string& where, std::string_view host) { return where.empty() || same_host(where, host); }
 
-std::string names_of(const MachineConfig& machine, const std::vector<std::size_t>& axes) {
+std::string names_of(const MachineConfig& machine, const std::vector<MotorIndex>& axes) {
     std::string names;
-    for (const std::size_t i : axes) { names += (names.empty() ? "" : " ") + motor_name(machine, i); }
+    for (const MotorIndex i : axes) { names += (names.empty() ? "" : " ") + motor_name(machine, i); }
     return names;
 }
 
@@ -51,17 +51,17 @@ std::vector<std::string> hosts_of(const MachineConfig& machine) {
 Placement placed_on(const MachineConfig& machine, std::string_view host) {
     Placement placement{.coordinator = is_placed(machine.coordinator_host, host)};
     const std::vector<MotorConfig> motors = motors_of(machine);
-    for (std::size_t i = 0; i < motors.size(); ++i) {
+    for (const MotorIndex i : motor_indices(motors.size())) {
         if (is_placed(motors[i].host, host)) { placement.axes.push_back(i); }
     }
     return placement;
 }
 
-std::expected<std::size_t, std::string> axis_to_run(const MachineConfig& machine, std::string_view named,
-                                                    std::string_view host) {
-    std::vector<std::size_t> fit;
+std::expected<MotorIndex, std::string> axis_to_run(const MachineConfig& machine, std::string_view named,
+                                                   std::string_view host) {
+    std::vector<MotorIndex> fit;
     const std::vector<MotorConfig> motors = motors_of(machine);
-    for (std::size_t i = 0; i < motors.size(); ++i) {
+    for (const MotorIndex i : motor_indices(motors.size())) {
         const MotorConfig& axis = motors[i];
         const bool here = !axis.host.empty() && same_host(axis.host, host);
         if (named.empty() ? here : axis.name == named) { fit.push_back(i); }

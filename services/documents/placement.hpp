@@ -21,14 +21,14 @@ std::vector<std::string> hosts_of(const MachineConfig& machine);
 /// The processes of a host: those placed on it, and those without a host in the configuration.
 struct Placement {
     bool coordinator = false;
-    std::vector<std::size_t> axes;
+    std::vector<MotorIndex> axes;  // those that these processes serve
     bool empty() const { return !coordinator && axes.empty(); }
 };
 Placement placed_on(const MachineConfig& machine, std::string_view host);
 
 /// Returns the axis that a process on this host runs: the axis `named`, or, if `named` is empty, the only axis placed
 /// on this host. The error lists the axes.
-std::expected<std::size_t, std::string> axis_to_run(const MachineConfig& machine, std::string_view named,
-                                                    std::string_view host);
+std::expected<MotorIndex, std::string> axis_to_run(const MachineConfig& machine, std::string_view named,
+                                                   std::string_view host);
 
 }  // namespace lockstep

@@ -71,7 +71,7 @@ std::vector<GcodePulses> pulses_of_programs(const MachineConfig& machine) {
     for (const OutputConfig& output : machine.outputs) {
         const auto motor = output.makes_pulses() ? motor_named(machine, output.motor) : std::nullopt;
         if (!motor) { continue; }
-        const std::size_t axis = kinematics.motors()[*motor].axis.value();
+        const AxisIndex axis = kinematics.motors()[*motor].axis.value();
         const double pulse_s = output.pulse_us * 1e-6 + 1 / machine.ticks_per_second();
         pulses.push_back({.number = output.number,
                           .axis = axis,
@@ -106,7 +106,7 @@ GcodeSetup gcode_setup(const MachineConfig& machine, const std::vector<double>& 
     setup.spin_up = spin_up_of(machine);
     setup.chord_tolerance_mm = chord_tolerance(machine);
     setup.curves_as_chords = coordination_of(machine).moves_straight;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         const AxisConfig& axis = machine.axes[i];
         setup.axes.push_back({.name = axis.name,
                               .min_mm = axis.position_min_mm,

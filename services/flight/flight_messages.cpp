@@ -19,14 +19,14 @@ std::string name_in(const MachineConfig& machine, FlightPeer peer) {
         case FlightPeer::Kind::Coordinator: return flight_process("");
         case FlightPeer::Kind::Axis: break;
     }
-    return peer.axis < motor_count(machine) ? flight_process(motor_name(machine, peer.axis)) : "";
+    return peer.axis < motor_count(machine) ? flight_process(motor_name(machine, MotorIndex{peer.axis})) : "";
 }
 
 std::optional<FlightPeer> peer_in(const MachineConfig& machine, const std::string& name) {
     if (name.empty()) { return FlightPeer{}; }
     if (name == flight_process("")) { return kFlightCoordinator; }
-    for (std::size_t i = 0; i < motor_count(machine); ++i) {
-        if (name == flight_process(motor_name(machine, i))) { return flight_axis(i); }
+    for (const MotorIndex m : motor_indices(motor_count(machine))) {
+        if (name == flight_process(motor_name(machine, m))) { return flight_axis(m); }
     }
     return std::nullopt;
 }

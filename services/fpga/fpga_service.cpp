@@ -35,13 +35,13 @@ std::uint64_t drawn_number() {
 /// up again, and the slide stays where it is.
 class Board {
 public:
-    Board(const FpgaOptions& options, MakeDevice make, const MotorConfig& axis, const MachineConfig& machine)
+    Board(const FpgaOptions& options, MakeDevice make, const MotorConfig& motor, const MachineConfig& machine)
         : options_(options),
           make_(make),
           tick_ns_(machine.tick_ns),
           clock_(machine.tick_ns, machine.timing.time_source),
-          inputs_(machine, axis, options.closed_inputs),
-          plant_(plant_of(machine, axis)) {}
+          inputs_(machine, motor, options.closed_inputs),
+          plant_(plant_of(machine, motor)) {}
 
     /// Error: why its registers cannot be created.
     std::expected<void, std::string> power_up() {
@@ -56,7 +56,7 @@ public:
     }
 
     /// Error: that of TouchedDevice::open.
-    std::expected<void, std::string> touch_work(const MachineConfig& machine, std::size_t motor) {
+    std::expected<void, std::string> touch_work(const MachineConfig& machine, MotorIndex motor) {
         auto touched = TouchedDevice::open(machine, motor, clock_.now());
         if (!touched) { return std::unexpected(touched.error()); }
         touched_.emplace(std::move(*touched));
@@ -90,12 +90,12 @@ std::expected<Board, std::string> set_up(const FpgaOptions& options, MakeDevice 
     const auto loaded = load_machine(options.machine_file);
     if (!loaded) { return std::unexpected(to_text(options.machine_file, loaded.error())); }
     const MachineConfig& machine = loaded->config;
-    const auto axis = motor_named(machine, options.axis);
-    if (!axis) { return std::unexpected(options.machine_file + ": no axis \"" + options.axis + "\""); }
-    Board board(options, make, motors_of(machine)[*axis], machine);
+    const auto motor = motor_named(machine, options.axis);
+    if (!motor) { return std::unexpected(options.machine_file + ": no axis \"" + options.axis + "\""); }
+    Board board(options, make, motors_of(machine)[*motor], machine);
     if (auto up = board.power_up(); !up) { return std::unexpected(up.error()); }
     if (!machine.workpiece) { return board; }
-    if (auto work = board.touch_work(machine, *axis); !work) { return std::unexpected(work.error()); }
+    if (auto work = board.touch_work(machine, *motor); !work) { return std::unexpected(work.error()); }
     return board;
 }
 

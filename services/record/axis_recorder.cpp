@@ -7,21 +7,21 @@
 
 namespace lockstep {
 
-AxisRecorder::AxisRecorder(const MachineConfig& machine, std::size_t axis, Identity incarnation, RecordSink& sink)
+AxisRecorder::AxisRecorder(const MachineConfig& machine, MotorIndex motor, Identity incarnation, RecordSink& sink)
     : machine_(machine),
-      axis_(axis),
+      motor_(motor),
       incarnation_(incarnation),
       sink_(sink),
-      channels_(channels_of(machine.name, motor_name(machine, axis))),
+      channels_(channels_of(machine.name, motor_name(machine, motor))),
       batcher_({.machine = machine.name,
-                .axis = motor_name(machine, axis),
-                .axis_index = static_cast<std::uint32_t>(axis),
+                .axis = motor_name(machine, motor),
+                .axis_index = static_cast<std::uint32_t>(motor),
                 .incarnation = incarnation,
                 .tick_ns = machine.tick_ns},
                0, [this](step_batch_t& batch) { publish(batch); }),
-      marker_(machine, motor_name(machine, axis), sink) {
+      marker_(machine, motor_name(machine, motor), sink) {
     channel_event_.machine = machine.name;
-    channel_event_.axis = motor_name(machine, axis);
+    channel_event_.axis = motor_name(machine, motor);
 }
 
 /// Sets the count before the first recorded step to the axis's position minus its steps so far.
@@ -56,7 +56,7 @@ void AxisRecorder::finish() {
     batch_steps();
     publish_channel_events();
     batcher_.flush();
-    marker_.note_end(motor_name(machine_, axis_), incarnation_, counts_, clock_.other);
+    marker_.note_end(motor_name(machine_, motor_), incarnation_, counts_, clock_.other);
 }
 
 /// Adds the steps' machine times from the newest clock estimate. An improved estimate may put them before the end of
@@ -78,7 +78,7 @@ void AxisRecorder::publish(step_batch_t& batch) {
 
 void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::uint64_t lost_captures) {
     clock_ = out.device_clock;
-    if (out.state) { marker_.note(motor_name(machine_, axis_), incarnation_, counts_, clock_.other); }
+    if (out.state) { marker_.note(motor_name(machine_, motor_), incarnation_, counts_, clock_.other); }
     if (out.device_changed) { placed_ = false; }
     if (!placed_ && out.state) {
         place(*out.state);
@@ -88,7 +88,7 @@ void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::ui
     publish_channel_events();
     for (const ExecutedTrack& track : out.tracks) {
         const RunRecord record{.machine = machine_.name,
-                               .axis = motor_name(machine_, axis_),
+                               .axis = motor_name(machine_, motor_),
                                .incarnation = incarnation_,
                                .sequence = counts_.runs++,
                                .epoch = track.epoch,

@@ -16,7 +16,7 @@ namespace lockstep {
 class AxisRecorder {
 public:
     /// `sink` must outlive the recorder. `incarnation` is the identity of the axis's process.
-    AxisRecorder(const MachineConfig& machine, std::size_t axis, Identity incarnation, RecordSink& sink);
+    AxisRecorder(const MachineConfig& machine, MotorIndex motor, Identity incarnation, RecordSink& sink);
 
     AxisRecorder(const AxisRecorder&) = delete;  // the batcher publishes through this object
     AxisRecorder& operator=(const AxisRecorder&) = delete;
@@ -54,7 +54,7 @@ private:
     void publish(step_batch_t& batch);
 
     MachineConfig machine_;
-    std::size_t axis_;
+    MotorIndex motor_;
     Identity incarnation_;
     RecordSink& sink_;
     AxisChannels channels_;

@@ -25,7 +25,7 @@ JobRecorder::JobRecorder(const MachineConfig& machine, Identity coordinator, Rec
 
 void JobRecorder::note_axis(const AxisHealth& health) {
     if (health.axis >= motor_count(machine_)) { return; }
-    marker_.note(motor_name(machine_, health.axis), health.identity, health.published, health.tick);
+    marker_.note(motor_name(machine_, MotorIndex{health.axis}), health.identity, health.published, health.tick);
 }
 
 void JobRecorder::record(Tick now, const JobEvent& event) {

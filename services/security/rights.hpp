@@ -29,7 +29,7 @@ inline Member coordinator_member() { return {"coordinator", Role::Coordinator, {
 inline Member standby_member() { return {"standby", Role::Coordinator, {}}; }
 inline Member client_member() { return {"client", Role::Client, {}}; }
 inline Member viewer_member() { return {"viewer", Role::Viewer, {}}; }
-Member axis_member(const MachineConfig& machine, std::size_t axis);
+Member axis_member(const MachineConfig& machine, MotorIndex motor);
 
 /// All possible members of a machine.
 std::vector<Member> members_of(const MachineConfig& machine);

@@ -7,7 +7,7 @@
 namespace lockstep {
 
 AxisSwitches::AxisSwitches(const MachineConfig& machine) : kinematics_(machine) {
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         const AxisConfig& axis = machine.axes[i];
         for (std::size_t n = 0; n < machine.inputs.size(); ++n) {
             const InputConfig& input = machine.inputs[n];
@@ -21,7 +21,7 @@ AxisSwitches::AxisSwitches(const MachineConfig& machine) : kinematics_(machine) 
     }
 }
 
-void AxisSwitches::add(std::size_t input, std::size_t axis, const AxisConfig& config, double at_mm, bool toward_min) {
+void AxisSwitches::add(std::size_t input, AxisIndex axis, const AxisConfig& config, double at_mm, bool toward_min) {
     switches_.push_back(
         {.input = input, .axis = axis, .at_steps = at_mm * config.steps_per_mm, .toward_min = toward_min});
 }

@@ -26,7 +26,7 @@ public:
 private:
     struct Switch {
         std::size_t input = 0;  // of the machine
-        std::size_t axis = 0;
+        AxisIndex axis;
         double at_steps = 0;
         bool toward_min = true;
         bool is_closed = false;
@@ -34,7 +34,7 @@ private:
         double begun_at_steps = 0;
     };
 
-    void add(std::size_t input, std::size_t axis, const AxisConfig& config, double at_mm, bool toward_min);
+    void add(std::size_t input, AxisIndex axis, const AxisConfig& config, double at_mm, bool toward_min);
 
     Kinematics kinematics_;
     std::vector<Switch> switches_;

@@ -14,14 +14,14 @@ ClockMail::ClockMail(const MachineConfig& machine, VirtualPost& post, const Mach
       is_used_(machine.timing.time_source == TimeSource::Network),
       axes_(motor_count(machine)) {}
 
-void ClockMail::begin(std::size_t axis, Identity identity) {
-    axes_[axis].asker.emplace(static_cast<std::uint32_t>(axis), identity, tick_ns_);
+void ClockMail::begin(MotorIndex motor, Identity identity) {
+    axes_[motor].asker.emplace(static_cast<std::uint32_t>(motor), identity, tick_ns_);
 }
 
-void ClockMail::ask(std::size_t axis, Tick now) {
+void ClockMail::ask(MotorIndex motor, Tick now) {
     if (!is_used_) { return; }
-    const auto request = axes_[axis].asker->ask(clocks_.process(axis, now));
-    if (request) { post_.send(now, axis, post_.clock_of(post_.coordinator()), *request); }
+    const auto request = axes_[motor].asker->ask(clocks_.process(motor, now));
+    if (request) { post_.send(now, motor, post_.clock_of(post_.coordinator()), *request); }
 }
 
 std::optional<std::size_t> ClockMail::next(Tick limit) const {
@@ -43,13 +43,13 @@ void ClockMail::take(std::size_t process, Tick now, bool is_up) {
     }
     for (const ClockReply& reply : mail.clock_replies) {
         Axis& axis = axes_[process];
-        const auto exchange = axis.asker->receive(reply, clocks_.process(process, now));
+        const auto exchange = axis.asker->receive(reply, clocks_.process(MotorIndex{process}, now));
         if (exchange) { axis.exchanges.push_back(*exchange); }
     }
 }
 
-std::vector<ClockExchange> ClockMail::take_exchanges(std::size_t axis) {
-    return std::exchange(axes_[axis].exchanges, {});
+std::vector<ClockExchange> ClockMail::take_exchanges(MotorIndex motor) {
+    return std::exchange(axes_[motor].exchanges, {});
 }
 
 }  // namespace lockstep

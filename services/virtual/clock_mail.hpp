@@ -18,15 +18,15 @@ public:
     ClockMail(const MachineConfig& machine, VirtualPost& post, const MachineClocks& clocks, Ticks reply_longer);
 
     /// A new process of the axis asks from now on.
-    void begin(std::size_t axis, Identity identity);
-    void ask(std::size_t axis, Tick now);
+    void begin(MotorIndex motor, Identity identity);
+    void ask(MotorIndex motor, Tick now);
     /// The process whose message arrives first; nullopt if none arrives before `limit`.
     std::optional<std::size_t> next(Tick limit) const;
     Tick arrival(std::size_t process) const { return post_.next_arrival(post_.clock_of(process)); }
     /// Takes the messages that have arrived at the process, which loses them unless it is up.
     void take(std::size_t process, Tick now, bool is_up);
     /// The replies to the axis since the last call.
-    std::vector<ClockExchange> take_exchanges(std::size_t axis);
+    std::vector<ClockExchange> take_exchanges(MotorIndex motor);
 
 private:
     struct Axis {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/indices.hpp"
 #include "services/virtual/virtual_clock.hpp"
 
 namespace lockstep {
@@ -15,18 +16,18 @@ public:
 
     /// The coordinator's clock.
     Tick machine(Tick now) const { return now - booted_; }
-    Tick process(std::size_t axis, Tick now) const { return of(axis).process.at(now, start_); }
-    Tick device(std::size_t axis, Tick now) const { return of(axis).device.at(now, start_); }
+    Tick process(MotorIndex motor, Tick now) const { return of(motor).process.at(now, start_); }
+    Tick device(MotorIndex motor, Tick now) const { return of(motor).device.at(now, start_); }
 
-    void set_process(std::size_t axis, Ticks forward) {
-        if (clocks_.size() <= axis) { clocks_.resize(axis + 1); }
-        clocks_[axis].process.offset += forward;
+    void set_process(MotorIndex motor, Ticks forward) {
+        if (clocks_.size() <= motor) { clocks_.resize(motor + 1); }
+        clocks_[motor].process.offset += forward;
     }
     /// Restarts the coordinator's clock.
     void reboot(Tick now) { booted_ = now - start_; }
 
 private:
-    AxisClocks of(std::size_t axis) const { return axis < clocks_.size() ? clocks_[axis] : AxisClocks{}; }
+    AxisClocks of(MotorIndex motor) const { return motor < clocks_.size() ? clocks_[motor] : AxisClocks{}; }
 
     std::vector<AxisClocks> clocks_;
     Tick start_;

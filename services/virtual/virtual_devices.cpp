@@ -42,43 +42,43 @@ VirtualDevices::VirtualDevices(const MachineConfig& machine, const MachineClocks
         devices_.push_back({.window = RegisterWindow::in_process(), .simulated = nullptr, .link = {}});
         const bool has_link = i < links.size() && links[i].most > Ticks{};
         if (has_link) { devices_[i].link.emplace(links[i], seed + i); }
-        power_up(i, devices_[i].window, plant_of(machine, motors_[i]), now);
+        power_up(MotorIndex{i}, devices_[i].window, plant_of(machine, motors_[i]), now);
     }
 }
 
-std::expected<std::unique_ptr<DevicePort>, std::string> VirtualDevices::open(std::size_t axis) {
-    if (devices_[axis].is_gone) { return std::unexpected("no process holds its registers"); }
-    auto driver = attach_driver(devices_[axis].window, machine_, motors_[axis]);
+std::expected<std::unique_ptr<DevicePort>, std::string> VirtualDevices::open(MotorIndex motor) {
+    if (devices_[motor].is_gone) { return std::unexpected("no process holds its registers"); }
+    auto driver = attach_driver(devices_[motor].window, machine_, motors_[motor]);
     if (!driver) { return std::unexpected(driver.error()); }
-    if (!estimates_clock(machine_, axis)) { return std::make_unique<WindowPort>(std::move(*driver)); }
-    const auto now = [this, axis] { return devices_[axis].now; };
-    const auto process_clock = [this, axis](Tick at) { return clocks_.process(axis, at); };
-    if (!devices_[axis].link) {
+    if (!estimates_clock(machine_, motor)) { return std::make_unique<WindowPort>(std::move(*driver)); }
+    const auto now = [this, motor] { return devices_[motor].now; };
+    const auto process_clock = [this, motor](Tick at) { return clocks_.process(motor, at); };
+    if (!devices_[motor].link) {
         return std::make_unique<WindowPort>(std::move(*driver), [=] { return process_clock(now()); });
     }
-    devices_[axis].link->attach(std::move(*driver));
-    return std::make_unique<LatePort>(*devices_[axis].link, now, process_clock);
+    devices_[motor].link->attach(std::move(*driver));
+    return std::make_unique<LatePort>(*devices_[motor].link, now, process_clock);
 }
 
-void VirtualDevices::advance(std::size_t axis, Tick now) {
-    Device& device = devices_[axis];
+void VirtualDevices::advance(MotorIndex motor, Tick now) {
+    Device& device = devices_[motor];
     device.now = now;
     if (device.is_stopped) { return; }
-    if (device.link) { deliver(axis, now); }
-    device.simulated->advance(clocks_.device(axis, now));
+    if (device.link) { deliver(motor, now); }
+    device.simulated->advance(clocks_.device(motor, now));
 }
 
-void VirtualDevices::deliver(std::size_t axis, Tick now) {
-    Device& device = devices_[axis];
+void VirtualDevices::deliver(MotorIndex motor, Tick now) {
+    Device& device = devices_[motor];
     for (auto at = device.link->next(); at && *at <= now; at = device.link->next()) {
-        device.simulated->advance(clocks_.device(axis, *at));
+        device.simulated->advance(clocks_.device(motor, *at));
         device.link->arrive();
     }
 }
 
 void VirtualDevices::set_input(std::size_t input, bool closed, Tick now) {
     const InputConfig& config = machine_.inputs[input];
-    const std::size_t motor = motor_named(machine_, config.motor).value();
+    const MotorIndex motor = motor_named(machine_, config.motor).value();
     advance(motor, now);
     lockstep::set_input((*this)[motor].plant(), config, closed);
 }
@@ -97,7 +97,7 @@ void VirtualDevices::follow_switches(Tick now) {
 
 void VirtualDevices::follow_switches_at(Tick now) {
     std::vector<Position> slides;
-    for (std::size_t i = 0; i < devices_.size(); ++i) {
+    for (const MotorIndex i : motor_indices(devices_.size())) {
         advance(i, now);
         slides.push_back(Position::steps(to_steps(motors_[i], (*this)[i].plant().position_mm())));
     }
@@ -109,13 +109,13 @@ void VirtualDevices::follow_switches_at(Tick now) {
 }
 
 void VirtualDevices::apply(const VirtualFault& fault, bool begins, Tick now) {
-    advance(fault.process, now);
+    advance(fault.motor(), now);
     fault.is_of_device() ? strike(fault, begins, now) : disturb(fault, begins);
-    advance(fault.process, now);
+    advance(fault.motor(), now);
 }
 
 void VirtualDevices::disturb(const VirtualFault& fault, bool begins) {
-    const std::size_t i = fault.process;
+    const MotorIndex i = fault.motor();
     if (fault.kind == VirtualFault::Kind::Stick) {
         (*this)[i].plant().stick(fault.contact, begins ? std::optional(fault.closed) : std::nullopt);
     } else if (fault.kind == VirtualFault::Kind::Push && begins) {
@@ -133,25 +133,25 @@ void VirtualDevices::strike(const VirtualFault& fault, bool begins, Tick now) {
     device.is_stopped = begins && fault.kind != Kind::Overwrite;
     device.is_gone = begins && fault.kind == Kind::KillDevice;
     if (fault.kind == Kind::Overwrite) {
-        begins ? overwrite(fault.process, fault.garbage, now)
-               : power_up(fault.process, device.window, (*this)[fault.process].plant(), now);
+        begins ? overwrite(fault.motor(), fault.garbage, now)
+               : power_up(fault.motor(), device.window, (*this)[fault.motor()].plant(), now);
     } else if (fault.kind == Kind::KillDevice && !begins) {
-        power_up(fault.process, RegisterWindow::in_process(), (*this)[fault.process].plant(), now);
+        power_up(fault.motor(), RegisterWindow::in_process(), (*this)[fault.motor()].plant(), now);
     }
 }
 
-void VirtualDevices::power_up(std::size_t axis, const RegisterWindow& window, Plant plant, Tick now) {
-    const Tick shown = clocks_.device(axis, now);
-    if (devices_[axis].link) { devices_[axis].link->power_up(); }
-    devices_[axis].window = window;
-    devices_[axis].simulated = std::make_unique<SimulatedDevice>(window, std::move(plant), machine_.tick_ns, shown,
-                                                                 static_cast<std::uint64_t>(now.value));
+void VirtualDevices::power_up(MotorIndex motor, const RegisterWindow& window, Plant plant, Tick now) {
+    const Tick shown = clocks_.device(motor, now);
+    if (devices_[motor].link) { devices_[motor].link->power_up(); }
+    devices_[motor].window = window;
+    devices_[motor].simulated = std::make_unique<SimulatedDevice>(window, std::move(plant), machine_.tick_ns, shown,
+                                                                  static_cast<std::uint64_t>(now.value));
 }
 
-void VirtualDevices::overwrite(std::size_t axis, bool garbage, Tick now) {
+void VirtualDevices::overwrite(MotorIndex motor, bool garbage, Tick now) {
     std::mt19937_64 random(seed_ ^ static_cast<std::uint64_t>(now.value));
     for (std::size_t word = 0; word < registers::kWindowBytes; word += sizeof(std::uint64_t)) {
-        devices_[axis].window.store(word, garbage ? random() : 0);
+        devices_[motor].window.store(word, garbage ? random() : 0);
     }
 }
 

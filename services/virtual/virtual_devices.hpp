@@ -24,15 +24,15 @@ public:
     VirtualDevices(const MachineConfig& machine, const MachineClocks& clocks, const std::vector<LinkDelay>& links,
                    std::uint64_t seed, Tick now);
 
-    SimulatedDevice& operator[](std::size_t axis) { return *devices_[axis].simulated; }
-    const SimulatedDevice& operator[](std::size_t axis) const { return *devices_[axis].simulated; }
+    SimulatedDevice& operator[](MotorIndex motor) { return *devices_[motor].simulated; }
+    const SimulatedDevice& operator[](MotorIndex motor) const { return *devices_[motor].simulated; }
     /// Its registers, as the host and the device see them.
-    const RegisterWindow& registers(std::size_t axis) const { return devices_[axis].window; }
+    const RegisterWindow& registers(MotorIndex motor) const { return devices_[motor].window; }
 
     /// Opens the device for its axis. Errors: no process holds its registers, or they are not those of a device.
-    std::expected<std::unique_ptr<DevicePort>, std::string> open(std::size_t axis);
+    std::expected<std::unique_ptr<DevicePort>, std::string> open(MotorIndex motor);
     /// Call it before the axis uses its device at `now`, and after that.
-    void advance(std::size_t axis, Tick now);
+    void advance(MotorIndex motor, Tick now);
 
     /// Begins or ends a fault of an axis's slide, switches or device. The device runs up to `now` before and reads its
     /// inputs after it.
@@ -52,13 +52,13 @@ private:
         bool is_stopped = false;
         bool is_gone = false;
     };
-    void deliver(std::size_t axis, Tick now);
+    void deliver(MotorIndex motor, Tick now);
     void follow_switches_at(Tick now);
-    void power_up(std::size_t axis, const RegisterWindow& window, Plant plant, Tick now);
+    void power_up(MotorIndex motor, const RegisterWindow& window, Plant plant, Tick now);
     void apply(const VirtualFault& fault, bool begins, Tick now);
     void disturb(const VirtualFault& fault, bool begins);
     void strike(const VirtualFault& fault, bool begins, Tick now);
-    void overwrite(std::size_t axis, bool garbage, Tick now);
+    void overwrite(MotorIndex motor, bool garbage, Tick now);
 
     const MachineClocks& clocks_;
     MachineConfig machine_;

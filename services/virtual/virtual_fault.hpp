@@ -41,6 +41,8 @@ struct VirtualFault {
     bool incoming = true;                            // Cut: messages to the process are lost
 
     constexpr Tick end() const { return at + lasts; }
+    /// Of an axis's process or device.
+    constexpr MotorIndex motor() const { return MotorIndex{process}; }
     /// Whether it is a fault of an axis's slide, switches or device, not of a process or link.
     constexpr bool is_of_plant() const {
         return kind == Kind::Stick || kind == Kind::Push || kind == Kind::DamageFrame || is_of_device();

@@ -20,7 +20,7 @@ VirtualMachine::VirtualMachine(const VirtualOptions& options)
 void VirtualMachine::restart(const VirtualFault& crash) {
     const std::size_t process = crash.process;
     (void)post_.collect(now_, process);  // lost: no process existed to receive it
-    if (!post_.is_coordinator(process)) { devices_.advance(process, now_); }
+    if (!post_.is_coordinator(process)) { devices_.advance(MotorIndex{process}, now_); }
     if (crash.reboots) { clocks_.reboot(now_); }
     processes_.start(process, now_, crash.other_config);
 }
@@ -39,7 +39,7 @@ void VirtualMachine::begin(const VirtualFault& fault) {
                 processes_.schedule().delay(fault.process, fault.end());
             }
             return;
-        case VirtualFault::Kind::SetClock: return clocks_.set_process(fault.process, fault.set_by);
+        case VirtualFault::Kind::SetClock: return clocks_.set_process(fault.motor(), fault.set_by);
         case VirtualFault::Kind::Crash: return processes_.end(fault.process);
         case VirtualFault::Kind::Cut: return post_.cut(fault);
         default: return devices_.begin(fault, now_);

@@ -39,7 +39,7 @@ public:
     bool advance_until(const std::function<bool()>& done, Ticks limit);
 
     /// Sends a command over the network as a client. Returns its sequence number.
-    std::uint64_t command(CommandKind kind, AxisSet axes = 0, std::uint64_t program = 0,
+    std::uint64_t command(CommandKind kind, AxisSet axes = {}, std::uint64_t program = 0,
                           std::optional<Ticks> ticks = {});
     std::uint64_t set_overrides(const Overrides& overrides);
     /// Sends the command unchanged, such as one of another client or a renewed one.
@@ -65,13 +65,13 @@ public:
     const std::optional<MachineState>& state() const { return client_.state(); }
     const std::vector<std::optional<AxisState>>& axis_states() const { return client_.axis_states(); }
     /// The present reading of the clock of an axis's device.
-    Tick device_time(std::size_t i) const { return clocks_.device(i, now_); }
+    Tick device_time(std::size_t i) const { return clocks_.device(MotorIndex{i}, now_); }
     /// An axis's device, which outlives its processes.
-    SimulatedDevice& device(std::size_t i) { return devices_[i]; }
+    SimulatedDevice& device(std::size_t i) { return devices_[MotorIndex{i}]; }
     /// A person closes or opens an input of the machine, by its number in the machine's file.
     void set_input(std::size_t input, bool closed) { devices_.set_input(input, closed, now_); }
-    const SimulatedDevice& device(std::size_t i) const { return devices_[i]; }
-    const RegisterWindow& registers(std::size_t i) const { return devices_.registers(i); }
+    const SimulatedDevice& device(std::size_t i) const { return devices_[MotorIndex{i}]; }
+    const RegisterWindow& registers(std::size_t i) const { return devices_.registers(MotorIndex{i}); }
     const AlterationCounts& alterations() const { return post_.alterations(); }
 
 private:

@@ -26,22 +26,22 @@ void VirtualProcesses::start(std::size_t process, Tick now, bool other_config) {
         FlightLog* const flight = options.flight ? &options.flight(process) : nullptr;
         coordinators_.start(number_of(process), identity, config_hash, flight);
     } else {
-        start_axis(process, config_hash);
+        start_axis(MotorIndex{process}, config_hash);
     }
     stalls_[process] = {};
     schedule_.start(process, now);
 }
 
-void VirtualProcesses::start_axis(std::size_t axis, std::uint64_t config_hash) {
-    Axis& it = axes_[axis];
-    const AxisNode::Setup setup{axis, around_.options.machine, axis_identities_++, config_hash, it.kept};
-    around_.clock_mail.begin(axis, setup.identity);
-    it.node.emplace(setup, [this, axis](Tick) { return around_.devices.open(axis); });
-    it.node->pass_channels([this, axis](const ChannelEvent& event) {
-        for (VirtualObserver* observer : around_.observers) { observer->on_channel(axis, event); }
+void VirtualProcesses::start_axis(MotorIndex motor, std::uint64_t config_hash) {
+    Axis& it = axes_[motor];
+    const AxisNode::Setup setup{motor, around_.options.machine, axis_identities_++, config_hash, it.kept};
+    around_.clock_mail.begin(motor, setup.identity);
+    it.node.emplace(setup, [this, motor](Tick) { return around_.devices.open(motor); });
+    it.node->pass_channels([this, motor](const ChannelEvent& event) {
+        for (VirtualObserver* observer : around_.observers) { observer->on_channel(motor, event); }
     });
     if (!around_.options.flight) { return; }
-    it.flight.emplace(axis, around_.options.machine, around_.options.flight(axis));
+    it.flight.emplace(motor, around_.options.machine, around_.options.flight(motor));
     it.node->note_in(*it.flight);
 }
 
@@ -65,7 +65,7 @@ bool VirtualProcesses::run_loop(std::size_t process, Tick now) {
         return std::visit([&](const auto& out) { return carry_out(process, out, now); }, decided);
     }
     return around_.post.is_coordinator(process) ? act(process, decide_coordinator(process, now), now)
-                                                : act(process, decide_axis(process, now), now);
+                                                : act(process, decide_axis(MotorIndex{process}, now), now);
 }
 
 template <typename Outputs>
@@ -77,7 +77,7 @@ bool VirtualProcesses::act(std::size_t process, const Outputs& out, Tick now) {
     return false;
 }
 
-const AxisOutputs& VirtualProcesses::decide_axis(std::size_t i, Tick now) {
+const AxisOutputs& VirtualProcesses::decide_axis(MotorIndex i, Tick now) {
     const Mail& mail = around_.post.collect(now, i);
     const auto on_step = [&](StepEdge step) {
         for (VirtualObserver* observer : around_.observers) { observer->on_step(i, step); }
@@ -92,7 +92,8 @@ const AxisOutputs& VirtualProcesses::decide_axis(std::size_t i, Tick now) {
     return out;
 }
 
-bool VirtualProcesses::carry_out(std::size_t i, const AxisOutputs& out, Tick now) {
+bool VirtualProcesses::carry_out(std::size_t process, const AxisOutputs& out, Tick now) {
+    const MotorIndex i{process};
     around_.devices.advance(i, now);
     axes_[i].node->carry_out(out);
     around_.devices.advance(i, now);  // the device carries out its orders

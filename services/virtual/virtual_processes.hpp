@@ -23,11 +23,11 @@ namespace lockstep {
 class VirtualObserver {
 public:
     virtual ~VirtualObserver() = default;
-    virtual void on_step(std::size_t /*axis*/, StepEdge /*step*/) {}
+    virtual void on_step(MotorIndex /*motor*/, StepEdge /*step*/) {}
     /// Called for each change of an input or output of an axis's device, when the axis's process reads it.
-    virtual void on_channel(std::size_t /*axis*/, const ChannelEvent& /*event*/) {}
+    virtual void on_channel(MotorIndex /*motor*/, const ChannelEvent& /*event*/) {}
     /// Called after the decisions of an axis's loop, with the node in its new state.
-    virtual void on_axis(std::size_t /*axis*/, Tick /*now*/, const AxisOutputs& /*out*/, AxisNode& /*node*/) {}
+    virtual void on_axis(MotorIndex /*motor*/, Tick /*now*/, const AxisOutputs& /*out*/, AxisNode& /*node*/) {}
     /// Called when a coordinator has taken a part of a program.
     virtual void on_part(std::size_t /*process*/, Tick /*now*/, const ProgramPart& /*part*/) {}
     /// Called after the decisions of a coordinator's loop.
@@ -78,12 +78,12 @@ private:
         std::variant<std::monostate, AxisOutputs, CoordinatorOutputs> decided;  // but not carried out
     };
 
-    void start_axis(std::size_t axis, std::uint64_t config_hash);
+    void start_axis(MotorIndex motor, std::uint64_t config_hash);
     template <typename Outputs>
     bool act(std::size_t process, const Outputs& out, Tick now);
-    const AxisOutputs& decide_axis(std::size_t axis, Tick now);
+    const AxisOutputs& decide_axis(MotorIndex motor, Tick now);
     CoordinatorOutputs decide_coordinator(std::size_t process, Tick now);
-    bool carry_out(std::size_t axis, const AxisOutputs& out, Tick now);
+    bool carry_out(std::size_t process, const AxisOutputs& out, Tick now);
     bool carry_out(std::size_t process, const CoordinatorOutputs& out, Tick now);
     bool carry_out(std::size_t /*process*/, std::monostate /*nothing*/, Tick /*now*/) { return false; }
     void note_part(std::size_t process, const TakenPart& taken, const std::vector<ProgramPart>& parts, Tick now);

@@ -40,7 +40,7 @@ std::expected<SharedSlides, std::string> SharedSlides::open(const MachineConfig&
 
 std::vector<Position> SharedSlides::places() const {
     std::vector<Position> places;
-    for (std::size_t m = 0; m < motors_.size(); ++m) {
+    for (const MotorIndex m : motor_indices(motors_.size())) {
         const auto steps = static_cast<double>(word(m).load(std::memory_order_relaxed));
         const double way_mm = motors_[m].steps_per_mm > 0 ? steps / motors_[m].steps_per_mm : 0;
         places.push_back(Position::steps(to_steps(motors_[m], motors_[m].plant.start_position_mm + way_mm)));

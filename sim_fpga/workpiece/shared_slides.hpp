@@ -22,14 +22,14 @@ public:
     static std::expected<SharedSlides, std::string> open(const MachineConfig& machine);
 
     /// Whole steps since the slide's power-up.
-    void publish(std::size_t motor, std::int64_t steps) { word(motor).store(steps, std::memory_order_relaxed); }
+    void publish(MotorIndex motor, std::int64_t steps) { word(motor).store(steps, std::memory_order_relaxed); }
     /// Of each motor. A slide that was never published stands at its start.
     std::vector<Position> places() const;
 
 private:
     SharedSlides(std::shared_ptr<std::int64_t[]> words, std::vector<MotorConfig> motors)
         : words_(std::move(words)), motors_(std::move(motors)) {}
-    std::atomic_ref<std::int64_t> word(std::size_t motor) const { return std::atomic_ref(words_.get()[motor]); }
+    std::atomic_ref<std::int64_t> word(MotorIndex motor) const { return std::atomic_ref(words_.get()[motor]); }
 
     std::shared_ptr<std::int64_t[]> words_;
     std::vector<MotorConfig> motors_;

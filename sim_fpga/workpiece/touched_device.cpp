@@ -7,14 +7,14 @@
 
 namespace lockstep {
 
-std::expected<TouchedDevice, std::string> TouchedDevice::open(const MachineConfig& machine, std::size_t motor,
+std::expected<TouchedDevice, std::string> TouchedDevice::open(const MachineConfig& machine, MotorIndex motor,
                                                               Tick now) {
     auto slides = SharedSlides::open(machine);
     if (!slides) { return std::unexpected(slides.error()); }
     return TouchedDevice(machine, motor, std::move(*slides), now);
 }
 
-TouchedDevice::TouchedDevice(const MachineConfig& machine, std::size_t motor, SharedSlides slides, Tick now)
+TouchedDevice::TouchedDevice(const MachineConfig& machine, MotorIndex motor, SharedSlides slides, Tick now)
     : inputs_(machine.inputs),
       motor_(motor),
       slides_(std::move(slides)),

@@ -18,17 +18,17 @@ namespace lockstep {
 class TouchedDevice {
 public:
     /// The device is at `now`. Error: that of SharedSlides::open.
-    static std::expected<TouchedDevice, std::string> open(const MachineConfig& machine, std::size_t motor, Tick now);
+    static std::expected<TouchedDevice, std::string> open(const MachineConfig& machine, MotorIndex motor, Tick now);
 
     /// Runs the device up to `until` by run(tick), which advances it and its plant.
     void advance(Tick until, Plant& plant, const std::function<void(Tick)>& run);
 
 private:
-    TouchedDevice(const MachineConfig& machine, std::size_t motor, SharedSlides slides, Tick now);
+    TouchedDevice(const MachineConfig& machine, MotorIndex motor, SharedSlides slides, Tick now);
     void look(Tick at, Plant& plant, const std::function<void(Tick)>& run);
 
     std::vector<InputConfig> inputs_;  // of the machine
-    std::size_t motor_;
+    MotorIndex motor_;
     SharedSlides slides_;
     WorkContacts contacts_;
     Tick now_;

@@ -9,12 +9,9 @@ namespace lockstep {
 WorkContacts::WorkContacts(const MachineConfig& machine, const std::string& motor)
     : kinematics_(machine), work_(machine.workpiece.value_or(WorkpieceConfig{})) {
     if (!machine.workpiece) { return; }
-    for (const char* name : {"X", "Y", "Z"}) {
-        const auto axis = std::ranges::find(machine.axes, name, &AxisConfig::name);
-        axes_.push_back(static_cast<std::size_t>(axis - machine.axes.begin()));
-    }
+    for (const char* name : {"X", "Y", "Z"}) { axes_.push_back(machine.axis_named(name).value()); }
     for (const AxisConfig& axis : machine.axes) { step_mm_.push_back(1 / axis.steps_per_mm); }
-    for (const std::size_t axis : axes_) { least_mm_ = std::max(least_mm_, 2 * step_mm_[axis]); }
+    for (const AxisIndex axis : axes_) { least_mm_ = std::max(least_mm_, 2 * step_mm_[axis]); }
     for (std::size_t i = 0; i < machine.inputs.size(); ++i) {
         const InputConfig& input = machine.inputs[i];
         if (input.use != InputUse::Probe || (!motor.empty() && input.motor != motor)) { continue; }
@@ -23,7 +20,7 @@ WorkContacts::WorkContacts(const MachineConfig& machine, const std::string& moto
 }
 
 WorkPlace WorkContacts::place_of(std::span<const Position> slides) const {
-    const auto mm = [&](std::size_t axis) { return kinematics_.axis_steps(axis, slides) * step_mm_[axis]; };
+    const auto mm = [&](AxisIndex axis) { return kinematics_.axis_steps(axis, slides) * step_mm_[axis]; };
     return {mm(axes_[0]), mm(axes_[1]), mm(axes_[2])};
 }
 

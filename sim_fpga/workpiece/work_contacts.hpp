@@ -37,9 +37,9 @@ private:
 
     Kinematics kinematics_;
     Workpiece work_;
-    std::vector<std::size_t> axes_;  // X, Y and Z
-    std::vector<double> step_mm_;    // of each axis of the machine
-    double least_mm_ = 0;            // of a motion that began in the interval
+    std::vector<AxisIndex> axes_;  // X, Y and Z
+    std::vector<double> step_mm_;  // of each axis of the machine
+    double least_mm_ = 0;          // of a motion that began in the interval
     std::vector<Contact> contacts_;
     WorkPlace place_;  // now, and at the begin of the interval
     WorkPlace begun_at_;

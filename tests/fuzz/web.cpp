@@ -25,10 +25,10 @@ void check(const Problem& problem) {
 }
 
 void check(const JogOrder& order, const MachineConfig& machine) {
-    AxisSet seen = 0;
+    AxisSet seen;
     for (const JogAxis& jog : order.jogs) {
-        require(jog.axis < machine.axes.size() && !has_axis(seen, jog.axis), "each of the machine's axes once");
-        seen |= AxisSet{1} << jog.axis;
+        require(jog.axis < machine.axes.size() && !seen.contains(jog.axis), "each of the machine's axes once");
+        seen.insert(jog.axis);
         const double speed = std::abs(jog.speed_mm_s);
         require(speed > 0 && speed <= machine.axes[jog.axis].max_velocity_mm_s, "a velocity is within the axis's");
         const double distance_mm = jog.distance_mm.value_or(1);

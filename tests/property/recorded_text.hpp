@@ -35,6 +35,14 @@ private:
         text_ +=
             {digits.data(), static_cast<std::size_t>(std::snprintf(digits.data(), digits.size(), "%.9g ", number))};
     }
+    template <typename Of>
+    void add(Index<Of> index) {
+        add(index.number());
+    }
+    template <typename AnIndex>
+    void add(IndexSet<AnIndex> set) {
+        add(set.bits());
+    }
     void add(const char* text) { add(std::string_view(text)); }
     void add(std::string_view text) { (text_ += text) += ' '; }
     void add(const std::string& text) { add(std::string_view(text)); }

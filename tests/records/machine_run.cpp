@@ -176,7 +176,7 @@ void MachineRun::return_and_resume() {
     if (!is(MachinePhase::Running)) { throw std::runtime_error("the axes do not return"); }
 }
 
-void MachineRun::home() { home(0); }
+void MachineRun::home() { home({}); }
 
 void MachineRun::home(AxisSet axes) {
     command(CommandKind::Home, 0, axes);
@@ -270,7 +270,7 @@ void MachineRun::move_own(std::string_view gcode) {
 
 void MachineRun::jog(std::uint32_t axis, double speed_mm_s, std::int64_t ms) {
     Command held{.client = 2, .sequence = ++jogs_, .kind = CommandKind::Jog};
-    held.jogs = {{.axis = axis, .speed_mm_s = speed_mm_s}};
+    held.jogs = {{.axis = AxisIndex{axis}, .speed_mm_s = speed_mm_s}};
     for (; ms > 0; ms -= 10) {
         vm_.send(held);
         wait_ms(10);

@@ -68,7 +68,7 @@ public:
 
     void wait_ms(std::int64_t ms);
     void reach(MachinePhase phase);
-    void command(CommandKind kind, std::uint64_t program = 0, AxisSet axes = 0);
+    void command(CommandKind kind, std::uint64_t program = 0, AxisSet axes = {});
     void set_overrides(const Overrides& overrides);
     void hold();
     void resume();

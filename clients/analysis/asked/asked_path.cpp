@@ -44,13 +44,10 @@ std::expected<AskedPath, std::string> AskedPath::of(const MachineConfig& machine
     for (std::size_t m = 0; m < plays.size() && m < asked.starts_.size(); ++m) { asked.starts_.steps[m] += plays[m]; }
     while (asked.starts_.size() > moving_motor_count(machine)) { asked.starts_.steps.pop_back(); }  // the boards
     asked.strokes_.resize(asked.motors());
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         asked.rest_mm_.push_back(to_mm(machine.axes[i], static_cast<double>(start[i])));
     }
-    for (const std::string& name : head.axes) {
-        const auto found = std::ranges::find(machine.axes, name, &AxisConfig::name);
-        asked.axes_.push_back(static_cast<std::size_t>(found - machine.axes.begin()));
-    }
+    for (const std::string& name : head.axes) { asked.axes_.push_back(machine.axis_named(name).value()); }
     asked.blocks_ = blocks;
     const auto planned = each_planned_move(
         machine, head, blocks, start, [&asked](const LegPlan& leg) { asked.add_first(leg); }, plays);
@@ -68,8 +65,8 @@ void AskedPath::add_first(const LegPlan& leg) {
     numbers_.push_back(move.block);
     steps_.resize(steps_.size() + motors());
     std::vector<std::optional<StrokeEnds>> ends = note_strokes(leg, number);
-    std::size_t lead = 0;
-    for (std::size_t motor = 1; motor < motors(); ++motor) {
+    MotorIndex lead;
+    for (MotorIndex motor{1}; motor < motors(); ++motor) {
         if (steps(number, motor) > steps(number, lead)) { lead = motor; }
     }
     leads_.push_back(static_cast<std::uint8_t>(lead));
@@ -89,7 +86,7 @@ void AskedPath::add_first(const LegPlan& leg) {
 /// Returns the first and the last stroke of each motor that makes steps.
 std::vector<std::optional<AskedPath::StrokeEnds>> AskedPath::note_strokes(const LegPlan& leg, std::uint32_t number) {
     std::vector<std::optional<StrokeEnds>> ends(motors());
-    for (std::size_t motor = 0; motor < motors(); ++motor) {
+    for (MotorIndex motor{0}; motor < motors(); ++motor) {
         each_stroke(leg.axes[motor], leg.moves[0].begin, leg.end(0), [&](const PlannedStroke& stroke) {
             strokes_[motor].push_back({stroke.from, stroke.to, number});
             steps_[number * motors() + motor] += std::abs(stroke.to - stroke.from);
@@ -99,7 +96,7 @@ std::vector<std::optional<AskedPath::StrokeEnds>> AskedPath::note_strokes(const 
     return ends;
 }
 
-std::int64_t AskedPath::slack(std::size_t move, std::size_t motor) const {
+std::int64_t AskedPath::slack(std::size_t move, MotorIndex motor) const {
     if (is_exact_[move]) { return 0; }
     const auto& strokes = strokes_[motor];
     const auto of_move = std::ranges::equal_range(strokes, static_cast<std::uint32_t>(move), {}, &Stroke::move);

@@ -76,11 +76,11 @@ public:
     /// Converts counts of the motors to places of the axes; without axes if there is no program.
     const AxisPlaces& places() const { return places_; }
     /// The steps in both directions together.
-    std::int64_t steps(std::size_t move, std::size_t motor) const { return steps_[move * motors() + motor]; }
+    std::int64_t steps(std::size_t move, MotorIndex motor) const { return steps_[move * motors() + motor]; }
     /// By how much the steps that a correct job makes in a move may differ from these if it was planned again behind a
     /// hold or an override: 0 for a line from rest to rest.
-    std::int64_t slack(std::size_t move, std::size_t motor) const;
-    const std::vector<Stroke>& strokes_of(std::size_t motor) const { return strokes_[motor]; }
+    std::int64_t slack(std::size_t move, MotorIndex motor) const;
+    const std::vector<Stroke>& strokes_of(MotorIndex motor) const { return strokes_[motor]; }
     /// The curve of a move, for all axes of the machine.
     AskedShape shape(std::size_t move) const;
     /// The greatest deviation from the curve that the program allows, of any axis in any move, in mm.
@@ -97,7 +97,7 @@ private:
     MotorCounts starts_;
     AxisPlaces places_;
     std::shared_ptr<const ProgramBlocks> blocks_;
-    std::vector<std::size_t> axes_;       // the machine's axes that the program names
+    std::vector<AxisIndex> axes_;         // the machine's axes that the program names
     std::vector<double> rest_mm_;         // of each axis of the machine, where the program begins
     std::vector<std::uint32_t> numbers_;  // of each move's block
     std::vector<std::int32_t> lines_;     // of each move

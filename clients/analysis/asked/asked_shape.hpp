@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/arc_path.hpp"
+#include "core/indices.hpp"
 #include "core/program.hpp"
 
 namespace lockstep::analysis {
@@ -24,8 +25,8 @@ public:
     bool is_line() const { return arc_ == nullptr; }
     double length() const { return length_; }
     /// Of a line: the part of an axis in its unit vector, and the distance of a place's foot from its beginning.
-    double direction(std::size_t axis) const { return line_[axis].direction; }
-    double from(std::size_t axis) const { return line_[axis].from; }
+    double direction(AxisIndex axis) const { return line_[axis].direction; }
+    double from(AxisIndex axis) const { return line_[axis].from; }
     double along(std::span<const double> at_mm) const;
     /// Of an arc: its path, the axes of its plane, and the share of its angle at the nearest point found last.
     const ArcPath& arc() const { return arc_->path; }

@@ -21,12 +21,12 @@ public:
     std::size_t axes() const { return mm_per_step_.size(); }
     /// Each axis is moved by a motor of its own.
     bool is_direct() const { return is_direct_; }
-    double mm_per_step(std::size_t axis) const { return mm_per_step_[axis]; }
+    double mm_per_step(AxisIndex axis) const { return mm_per_step_[axis]; }
     const std::shared_ptr<const Kinematics>& kinematics() const { return kinematics_; }
     /// The motors are here; `at_mm`: one number for each axis, in mm or degrees.
     void set(std::span<const std::int64_t> counts, std::span<double> at_mm);
     /// A motor has moved to `count`. Changes the places of the axes that it moves.
-    void go_to(std::size_t motor, std::int64_t count, std::span<double> at_mm) {
+    void go_to(MotorIndex motor, std::int64_t count, std::span<double> at_mm) {
         if (is_direct_) {
             at_mm[motor] = static_cast<double>(count) * mm_per_step_[motor];
         } else {
@@ -35,17 +35,17 @@ public:
     }
 
 private:
-    void go_by_map(std::size_t motor, std::int64_t count, std::span<double> at_mm);
-    void place(std::size_t axis, std::span<double> at_mm) const {
+    void go_by_map(MotorIndex motor, std::int64_t count, std::span<double> at_mm);
+    void place(AxisIndex axis, std::span<double> at_mm) const {
         at_mm[axis] = kinematics_->axis_steps(axis, motors_) * mm_per_step_[axis];
     }
 
     std::shared_ptr<const Kinematics> kinematics_;
     bool is_direct_ = true;
-    std::vector<double> mm_per_step_;              // of each axis
-    std::vector<Position> motors_;                 // their slides, unless it is direct
-    std::vector<Play> plays_;                      // of each motor
-    std::vector<std::vector<std::size_t>> moved_;  // the axes that each motor moves
+    std::vector<double> mm_per_step_;            // of each axis
+    std::vector<Position> motors_;               // their slides, unless it is direct
+    std::vector<Play> plays_;                    // of each motor
+    std::vector<std::vector<AxisIndex>> moved_;  // the axes that each motor moves
 };
 
 }  // namespace lockstep::analysis

@@ -1,7 +1,7 @@
 #include "clients/analysis/measure/plane_trace.hpp"
 
 #include "clients/drawing/decimate.hpp"
-#include "core/axis_set.hpp"
+#include "core/indices.hpp"
 
 namespace lockstep::analysis {
 

@@ -31,7 +31,7 @@ AxisMeter::AxisMeter(const MachineConfig& machine, std::shared_ptr<const Kinemat
     }
 }
 
-void AxisMeter::take(std::size_t motor, Run run) {
+void AxisMeter::take(MotorIndex motor, Run run) {
     const std::size_t motors = kinematics_->motors().size();
     if (run.epoch == 0 || motor >= motors) { return; }
     const auto frame = frames_.try_emplace({run.commanded_start(), run.epoch}, motors).first;
@@ -62,7 +62,7 @@ void AxisMeter::measure(const Frame& frame) {
             middle[m] = at_share(first[m], piece, 0.5);
             last[m] = first[m] + piece.covered();
         }
-        for (std::size_t a = 0; a < axes_.size(); ++a) {
+        for (const AxisIndex a : axis_indices(axes_.size())) {
             note(axes_[a], {begin, lengths[i], kinematics_->axis_steps(a, first), kinematics_->axis_steps(a, middle),
                             kinematics_->axis_steps(a, last)});
         }

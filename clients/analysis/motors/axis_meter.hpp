@@ -39,7 +39,7 @@ public:
     AxisMeter(const MachineConfig& machine, std::shared_ptr<const Kinematics> kinematics, bool keeps_curves);
 
     /// Leaves out own moves, which motors do not make together, and frames of which the log lacks a motor's.
-    void take(std::size_t motor, Run run);
+    void take(MotorIndex motor, Run run);
     /// Call once, at the end of the log. Leaves out axes without any frame.
     std::vector<AxisFigures> finish();
 

@@ -19,7 +19,7 @@ std::vector<MotorSkew> axes_with_skew(const Kinematics& kinematics) {
         if (motor.moves_one_axis) { ++motors[*motor.axis]; }
     }
     std::vector<MotorSkew> skews;
-    for (std::size_t axis = 0; axis < motors.size(); ++axis) {
+    for (AxisIndex axis{0}; axis < motors.size(); ++axis) {
         if (motors[axis] > 1) { skews.push_back({.axis = axis}); }
     }
     return skews;
@@ -28,7 +28,7 @@ std::vector<MotorSkew> axes_with_skew(const Kinematics& kinematics) {
 MotorSkewMeter::MotorSkewMeter(const Kinematics& kinematics, bool is_homing, std::span<const std::int64_t> starts)
     : is_homing_(is_homing), skews_(axes_with_skew(kinematics)) {
     if (skews_.empty()) { return; }
-    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+    for (const MotorIndex m : motor_indices(kinematics.motors().size())) {
         const MotorConfig& config = kinematics.motors()[m];
         Motor& motor = motors_.emplace_back();
         const auto skew = std::ranges::find(skews_, config.axis, &MotorSkew::axis);
@@ -40,7 +40,7 @@ MotorSkewMeter::MotorSkewMeter(const Kinematics& kinematics, bool is_homing, std
     }
 }
 
-void MotorSkewMeter::take(const MergedSteps& steps, std::span<const std::optional<std::size_t>> motor_of_lane,
+void MotorSkewMeter::take(const MergedSteps& steps, std::span<const std::optional<MotorIndex>> motor_of_lane,
                           Tick until) {
     if (motors_.empty()) { return; }
     for (std::size_t i = 0; i < steps.lanes().size() && !is_homing_; ++i) {
@@ -50,7 +50,7 @@ void MotorSkewMeter::take(const MergedSteps& steps, std::span<const std::optiona
     follow(steps, motor_of_lane, until);
 }
 
-void MotorSkewMeter::follow(const MergedSteps& steps, std::span<const std::optional<std::size_t>> motor_of_lane,
+void MotorSkewMeter::follow(const MergedSteps& steps, std::span<const std::optional<MotorIndex>> motor_of_lane,
                             Tick until) {
     const auto in_motion = is_homing_ ? &MotorSkew::in_homing_mm : &MotorSkew::in_motion_mm;
     for (const MergedStep& step : steps.before(until)) {

@@ -18,7 +18,7 @@ namespace lockstep::analysis {
 
 /// The greatest differences, in mm of the axis; nullopt if its motors made no steps then.
 struct MotorSkew {
-    std::size_t axis = 0;
+    AxisIndex axis;
     std::optional<double> in_homing_mm;
     std::optional<double> in_motion_mm;  // in other jobs, behind all steps of a tick
     std::optional<double> at_rest_mm;    // in other jobs, and at their ends
@@ -41,7 +41,7 @@ public:
     MotorSkewMeter(const Kinematics& kinematics, bool is_homing, std::span<const std::int64_t> starts);
 
     /// Takes the steps before `until`, and does not pass them. `motor_of_lane`: nullopt for motors of other machines.
-    void take(const MergedSteps& steps, std::span<const std::optional<std::size_t>> motor_of_lane, Tick until);
+    void take(const MergedSteps& steps, std::span<const std::optional<MotorIndex>> motor_of_lane, Tick until);
     /// Call once, at the end of the job.
     const std::vector<MotorSkew>& finish();
     /// Ends it, and adds its figures to those of the same axes.
@@ -53,7 +53,7 @@ private:
         double axis_mm_per_step = 0;
         std::optional<std::int64_t> count;  // homing: since the begin
     };
-    void follow(const MergedSteps& steps, std::span<const std::optional<std::size_t>> motor_of_lane, Tick until);
+    void follow(const MergedSteps& steps, std::span<const std::optional<MotorIndex>> motor_of_lane, Tick until);
     void note(std::optional<double> MotorSkew::*figure);
     std::optional<double> now_mm(std::size_t skew) const;
 

@@ -34,15 +34,13 @@ MotionUnit motion_unit(const MachineConfig& machine) {
 std::string_view name_of(MotionUnit unit) { return pick_name({"mm", "deg", "mm and deg"}, unit); }
 
 MotionUnit motion_unit(const MachineConfig& machine, const Kinematics& kinematics, const MoveLog& move) {
-    AxisSet moved = 0;
-    for (std::size_t m = 0; m < std::min(move.motors.size(), kinematics.motors().size()); ++m) {
+    AxisSet moved;
+    for (const MotorIndex m : motor_indices(std::min(move.motors.size(), kinematics.motors().size()))) {
         const bool takes_part = move.motors[m].asked_steps != 0 || move.motors[m].made_steps != 0;
         if (takes_part) { moved |= kinematics.axes_of_motor(m); }
     }
     MovingParts parts;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        if (has_axis(moved, i)) { parts.add(machine.axes[i].name); }
-    }
+    for (const AxisIndex axis : moved) { parts.add(machine.axes[axis].name); }
     return parts.unit();
 }
 

@@ -9,9 +9,7 @@ namespace lockstep::analysis {
 
 void DistanceBound::set_line(const AskedShape& shape) {
     axes_.clear();
-    for (std::size_t axis = 0; axis < shape.axes(); ++axis) {
-        axes_.push_back({shape.from(axis), shape.direction(axis)});
-    }
+    for (AxisIndex axis{0}; axis < shape.axes(); ++axis) { axes_.push_back({shape.from(axis), shape.direction(axis)}); }
     length_ = shape.length();
 }
 
@@ -20,7 +18,7 @@ void DistanceBound::set_arc(const AskedShape& shape) {
     const ArcPath::Point point = arc.point(shape.share());
     const double share_per_turn = 1 / arc.turn();
     axes_.clear();
-    for (std::size_t axis = 0; axis < shape.axes(); ++axis) {
+    for (AxisIndex axis{0}; axis < shape.axes(); ++axis) {
         axes_.push_back({point.at(axis), point.slope(axis) * share_per_turn});
     }
     first_ = shape.plane().first;
@@ -45,13 +43,13 @@ std::size_t DistanceBound::first_farther(const Places& places, std::size_t first
 LOCKSTEP_VECTOR_CLONES
 void DistanceBound::slacks_of_line(const Places& places, double farthest, Numbers& slacks) const {
     double begin = 0;
-    for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
+    for (AxisIndex axis{0}; axis < axes_.size(); ++axis) {
         begin += (places.mm[axis][0] - axes_[axis].from) * axes_[axis].change;
     }
     for (std::size_t half = 0; half < Places::kMost; half += Places::kMost / 2) {
         DoubleLanes along{};
         DoubleLanes square{};
-        for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
+        for (AxisIndex axis{0}; axis < axes_.size(); ++axis) {
             DoubleLanes off;
             load(off, places.mm[axis].data() + half);
             off -= axes_[axis].at(begin);
@@ -87,7 +85,7 @@ void DistanceBound::slacks_of_arc(const Places& places, double farthest, Numbers
         const double off = radii[i] - radius_.at(turns[i]);
         squares[i] = off * off;
     }
-    for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
+    for (AxisIndex axis{0}; axis < axes_.size(); ++axis) {
         if (axis == first_ || axis == second_) { continue; }
         const double* const at = places.mm[axis].data();
         for (std::size_t i = 0; i < Places::kMost; ++i) {

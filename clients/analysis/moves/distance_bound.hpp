@@ -23,7 +23,7 @@ struct Places {
     std::vector<std::array<double, kMost>> mm;  // by axis; behind `size` any numbers
 
     void get(std::size_t place, std::span<double> at_mm) const {
-        for (std::size_t axis = 0; axis < mm.size(); ++axis) { at_mm[axis] = mm[axis][place]; }
+        for (AxisIndex axis{0}; axis < mm.size(); ++axis) { at_mm[axis] = mm[axis][place]; }
     }
 };
 

@@ -42,7 +42,7 @@ void JobMoves::begin(std::size_t move) {
     if (on_a_line_) { distance_.begin(asked_, move); }
 }
 
-void JobMoves::take(std::size_t motor, const MeasuredStep& step, bool ends_tick) {
+void JobMoves::take(MotorIndex motor, const MeasuredStep& step, bool ends_tick) {
     if (asked_.size() == 0) { return; }
     MoveCursor& cursor = made_cursor_[motor];
     const std::size_t move_before = cursor.move();
@@ -96,7 +96,7 @@ void JobMoves::take_in_strokes(MergedSteps& steps, MotorsOfLanes motor_of_lane, 
         const MergedSteps::Lane& lane = steps.lanes()[i];
         const std::size_t count = lane.steps.before(until);
         if (count == 0) { continue; }
-        const std::size_t motor = *motor_of_lane[i];
+        const MotorIndex motor = *motor_of_lane[i];
         const std::size_t move = made_cursor_[motor].move();
         const StepsOfMove of{
             lane.steps.tick(0), lane.steps.tick(count - 1), static_cast<std::int64_t>(count), {lane.rates, count}};
@@ -116,7 +116,7 @@ void JobMoves::forget_distances(std::size_t from_move) {
     for (std::size_t move = from_move; move <= current_; ++move) { made_[move].is_distance_known = false; }
 }
 
-std::size_t JobMoves::first_move_that_lacks(std::size_t motor) const {
+std::size_t JobMoves::first_move_that_lacks(MotorIndex motor) const {
     std::size_t move = 0;
     const auto has_all = [&] {
         return made_steps_[move * asked_.motors() + motor] + slack(move, motor) >= asked_.steps(move, motor);
@@ -125,9 +125,9 @@ std::size_t JobMoves::first_move_that_lacks(std::size_t motor) const {
     return move;
 }
 
-bool JobMoves::lacks_steps_of(std::size_t motor) const { return first_move_that_lacks(motor) < asked_.size(); }
+bool JobMoves::lacks_steps_of(MotorIndex motor) const { return first_move_that_lacks(motor) < asked_.size(); }
 
-void JobMoves::know_until(std::size_t motor, Tick until) {
+void JobMoves::know_until(MotorIndex motor, Tick until) {
     for (std::size_t move = first_move_that_lacks(motor); move < asked_.size(); ++move) {
         if (made_[move].newest > until) { made_[move].is_distance_known = false; }
     }
@@ -137,7 +137,7 @@ std::int64_t JobMoves::moves_without_distance() const {
     return std::ranges::count(made_, false, &Made::is_distance_known);
 }
 
-void JobMoves::take_in(std::size_t move, std::size_t motor, const StepsOfMove& steps) {
+void JobMoves::take_in(std::size_t move, MotorIndex motor, const StepsOfMove& steps) {
     if (move > current_) { begin(move); }
     const std::size_t place = move * asked_.motors() + motor;
     made_steps_[place] += steps.steps;
@@ -148,7 +148,7 @@ void JobMoves::take_in(std::size_t move, std::size_t motor, const StepsOfMove& s
     if (is_lead) { details_.set_last(move, steps.last); }
 }
 
-void JobMoves::take(std::size_t motor, EquallyLate late) {
+void JobMoves::take(MotorIndex motor, EquallyLate late) {
     if (asked_.size() == 0) { return; }
     MoveCursor& cursor = late_cursor_[motor];
     const auto beyond = [&] { return slack(cursor.move(), motor); };
@@ -179,7 +179,7 @@ MoveLog JobMoves::move(std::size_t number) const {
     if (is_made && on_a_line_ && made.is_distance_known) {
         log.largest_distance_mm = std::sqrt(static_cast<double>(made.largest_square_mm2));
     }
-    for (std::size_t motor = 0; motor < asked_.motors(); ++motor) {
+    for (MotorIndex motor{0}; motor < asked_.motors(); ++motor) {
         log.motors.push_back({.asked_steps = asked_.steps(number, motor),
                               .made_steps = made_steps_[number * asked_.motors() + motor],
                               .slack_steps = slack(number, motor)});

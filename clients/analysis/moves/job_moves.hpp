@@ -32,19 +32,19 @@ public:
     bool is_on_a_line() const { return on_a_line_ && asked_.size() > 0; }
     /// Call in the order of time. A step that comes late makes the distances since its move unknown. `ends_tick`: no
     /// other motor makes a step in this tick.
-    void take(std::size_t motor, const MeasuredStep& step, bool ends_tick = true);
+    void take(MotorIndex motor, const MeasuredStep& step, bool ends_tick = true);
     /// Takes and passes the steps before `until`.
     void take(MergedSteps& steps, MotorsOfLanes motor_of_lane, Tick until);
-    void take(std::size_t motor, EquallyLate late);
+    void take(MotorIndex motor, EquallyLate late);
 
     /// From here on the path is planned again, behind a hold or an override.
     void plan_again() { is_planned_again_ = true; }
     /// Steps that belong to no move.
     std::int64_t unasked_steps() const { return unasked_steps_; }
     /// Whether the motor made fewer steps than commanded, because the log lacks some or the job ended earlier.
-    bool lacks_steps_of(std::size_t motor) const;
+    bool lacks_steps_of(MotorIndex motor) const;
     /// The log has the motor's steps only until `until`. If it lacks steps, distances after `until` are unknown.
-    void know_until(std::size_t motor, Tick until);
+    void know_until(MotorIndex motor, Tick until);
     /// The number of moves with an unknown distance from the line.
     std::int64_t moves_without_distance() const;
     /// The program's line in motion at `tick`; nullopt before the first.
@@ -70,15 +70,15 @@ private:
         std::int64_t steps = 0;
         std::span<const StepRates> rates;
     };
-    void take_in(std::size_t move, std::size_t motor, const StepsOfMove& steps);
+    void take_in(std::size_t move, MotorIndex motor, const StepsOfMove& steps);
     Tick end_of_strokes(const MergedSteps& steps, MotorsOfLanes motor_of_lane, Tick until) const;
     void take_in_strokes(MergedSteps& steps, MotorsOfLanes motor_of_lane, Tick until);
     void begin(std::size_t move);
     void forget_distances(std::size_t from_move);
-    std::int64_t slack(std::size_t move, std::size_t motor) const {
+    std::int64_t slack(std::size_t move, MotorIndex motor) const {
         return is_planned_again_ ? asked_.slack(move, motor) : 0;
     }
-    std::size_t first_move_that_lacks(std::size_t motor) const;
+    std::size_t first_move_that_lacks(MotorIndex motor) const;
 
     AskedPath asked_;
     bool on_a_line_;

@@ -5,14 +5,12 @@
 namespace lockstep::analysis {
 
 std::optional<MappedPlane> mapped_plane(const MachineConfig& machine, const JobMoves& moves) {
-    const auto place = [&](const char* name) {
-        const auto found = std::ranges::find(machine.axes, name, &AxisConfig::name);
-        return static_cast<std::size_t>(found - machine.axes.begin());
-    };
-    MappedPlane plane{.kinematics = moves.asked().places().kinematics(), .x = place("X"), .y = place("Y")};
-    const bool has_axes = std::max(plane.x, plane.y) < machine.axes.size();
-    if (!moves.is_on_a_line() || plane.kinematics->is_direct() || !has_axes) { return std::nullopt; }
-    const auto scale = [&](std::size_t axis) {
+    const auto x = machine.axis_named("X");
+    const auto y = machine.axis_named("Y");
+    const auto kinematics = moves.asked().places().kinematics();
+    if (!moves.is_on_a_line() || kinematics->is_direct() || !x || !y) { return std::nullopt; }
+    MappedPlane plane{.kinematics = kinematics, .x = *x, .y = *y};
+    const auto scale = [&](AxisIndex axis) {
         return 1 / (machine.axes[axis].steps_per_mm * plane.kinematics->step_mm(axis));
     };
     plane.x_scale = scale(plane.x);

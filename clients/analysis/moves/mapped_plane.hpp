@@ -15,8 +15,8 @@ namespace lockstep::analysis {
 
 struct MappedPlane {
     std::shared_ptr<const Kinematics> kinematics;
-    std::size_t x = 0;
-    std::size_t y = 0;
+    AxisIndex x;
+    AxisIndex y;
     double x_scale = 1;  // steps as in MoveMeter::plane(), for each of the axis
     double y_scale = 1;
     std::vector<std::int64_t> counts;  // of the motors, after the traced steps

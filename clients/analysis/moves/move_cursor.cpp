@@ -4,7 +4,7 @@
 
 namespace lockstep::analysis {
 
-bool MoveCursor::find_next(const AskedPath& asked, std::size_t motor, std::int64_t count, int direction,
+bool MoveCursor::find_next(const AskedPath& asked, MotorIndex motor, std::int64_t count, int direction,
                            std::int64_t most_beyond) {
     const std::size_t end = std::min(asked.strokes_of(motor).size(), next_ + kReach);
     const std::size_t near = std::min(end, next_ + kNear);
@@ -15,7 +15,7 @@ bool MoveCursor::find_next(const AskedPath& asked, std::size_t motor, std::int64
     return find_among(asked, motor, near, end, count, direction);
 }
 
-bool MoveCursor::find_among(const AskedPath& asked, std::size_t motor, std::size_t first, std::size_t end,
+bool MoveCursor::find_among(const AskedPath& asked, MotorIndex motor, std::size_t first, std::size_t end,
                             std::int64_t count, int direction) {
     const auto& strokes = asked.strokes_of(motor);
     for (std::size_t i = first; i < end; ++i) {

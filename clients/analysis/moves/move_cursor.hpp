@@ -15,7 +15,7 @@ public:
     /// strokes is it.
     /// `beyond()`: steps by which a reversal may be later than planned.
     template <typename Beyond>
-    bool find(const AskedPath& asked, std::size_t motor, std::int64_t count, int direction, Beyond&& beyond) {
+    bool find(const AskedPath& asked, MotorIndex motor, std::int64_t count, int direction, Beyond&& beyond) {
         return is_in_stroke(count, direction) || find_next(asked, motor, count, direction, beyond());
     }
     bool is_in_stroke(std::int64_t count, int direction) const { return stroke_.has(count, direction); }
@@ -28,8 +28,8 @@ private:
     static constexpr std::size_t kReach = 64;  // strokes searched, because steps may be missing from the log
     static constexpr std::size_t kNear = 3;    // strokes of which one is likely
 
-    bool find_next(const AskedPath& asked, std::size_t motor, std::int64_t count, int direction, std::int64_t beyond);
-    bool find_among(const AskedPath& asked, std::size_t motor, std::size_t first, std::size_t end, std::int64_t count,
+    bool find_next(const AskedPath& asked, MotorIndex motor, std::int64_t count, int direction, std::int64_t beyond);
+    bool find_among(const AskedPath& asked, MotorIndex motor, std::size_t first, std::size_t end, std::int64_t count,
                     int direction);
 
     std::size_t next_ = 0;      // index in the motor's strokes

@@ -38,7 +38,7 @@ MoveDetails::MoveDetails(const AskedPath& asked) : motors_(asked.motors()) {
     peaks_.resize(moves_.size() * motors_);
 }
 
-void MoveDetails::add_rates(std::size_t move, std::size_t motor, std::span<const StepRates> rates) {
+void MoveDetails::add_rates(std::size_t move, MotorIndex motor, std::span<const StepRates> rates) {
     StepRates& peak = peaks_[move * motors_ + motor];
     const StepRates of = rates.size() == 1 ? rates.front() : peak_of(rates);
     peak.steps_per_tick = std::max(peak.steps_per_tick, of.steps_per_tick);
@@ -62,7 +62,7 @@ void MoveDetails::write(const AskedMove& asked, std::size_t move, std::optional<
         log.first = first;
         log.made = made.last - *first + asked.planned - asked.stepping;
     }
-    for (std::size_t motor = 0; motor < motors_; ++motor) {
+    for (MotorIndex motor{0}; motor < motors_; ++motor) {
         log.motors[motor].peak_steps_per_tick = peaks_[move * motors_ + motor].steps_per_tick;
         log.motors[motor].peak_steps_per_tick2 = peaks_[move * motors_ + motor].steps_per_tick2;
     }

@@ -23,7 +23,7 @@ public:
     /// Whether the move is one of the first.
     bool has(std::size_t move) const { return move < moves_.size(); }
     /// Rates of some steps of a motor in this move.
-    void add_rates(std::size_t move, std::size_t motor, std::span<const StepRates> rates);
+    void add_rates(std::size_t move, MotorIndex motor, std::span<const StepRates> rates);
     /// The newest step of the lead motor.
     void set_last(std::size_t move, Tick last) { moves_[move].last = last; }
     void add_late(std::size_t move, const EquallyLate& steps);

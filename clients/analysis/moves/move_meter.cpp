@@ -7,10 +7,10 @@
 
 namespace lockstep::analysis {
 
-std::optional<std::size_t> MoveMeter::Job::motor(const std::string& name) const {
+std::optional<MotorIndex> MoveMeter::Job::motor(const std::string& name) const {
     const auto found = std::ranges::find(measured.motors, name);
     if (found == measured.motors.end()) { return std::nullopt; }
-    return static_cast<std::size_t>(found - measured.motors.begin());
+    return MotorIndex{static_cast<std::size_t>(found - measured.motors.begin())};
 }
 
 void MoveMeter::name_lane(std::size_t lane, const std::string& motor) {
@@ -162,7 +162,7 @@ void MoveMeter::trace_by_map(Job& job, const MergedSteps& steps, Tick until) {
 }
 
 /// At its step a motor is halfway between two counts. `at`: the places of the motors after the step.
-void MoveMeter::pass_place(const Job& job, std::vector<Position>& at, std::size_t motor, int direction,
+void MoveMeter::pass_place(const Job& job, std::vector<Position>& at, MotorIndex motor, int direction,
                            Tick tick) const {
     const MappedPlane& plane = *job.plane;
     const Position after = at[motor];

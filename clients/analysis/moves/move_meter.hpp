@@ -66,14 +66,14 @@ private:
     struct Job {
         std::size_t number = 0;
         Measured measured;
-        std::vector<std::optional<std::size_t>> motor_of_lane;
+        std::vector<std::optional<MotorIndex>> motor_of_lane;
         bool is_direct = true;                 // its machine's motors are its axes; otherwise `plane` is used
         std::vector<std::int64_t> counts;      // of the motors, after the places that were passed on
         std::array<double, 2> steps_per_mm{};  // of X and Y
         std::optional<MappedPlane> plane;      // with a program in the plane
         bool is_traced = false;                // a step of it was traced
 
-        std::optional<std::size_t> motor(const std::string& name) const;
+        std::optional<MotorIndex> motor(const std::string& name) const;
     };
 
     /// Null before the first job, and for a job that is over.
@@ -85,7 +85,7 @@ private:
     void pass_places(Job& job, const MergedSteps& steps, Tick until) const;
     void trace_lanes(const MergedSteps& steps, Tick until);
     void trace_by_map(Job& job, const MergedSteps& steps, Tick until);
-    void pass_place(const Job& job, std::vector<Position>& at, std::size_t motor, int direction, Tick tick) const;
+    void pass_place(const Job& job, std::vector<Position>& at, MotorIndex motor, int direction, Tick tick) const;
     void end_first();
 
     OnJob on_job_;

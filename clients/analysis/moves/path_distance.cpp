@@ -15,7 +15,7 @@ PathDistance::PathDistance(const AskedPath& asked) {
     axes_ = asked.places();
     at_mm_.resize(axes_.axes());
     axes_.set(counts_, at_mm_);
-    for (std::size_t i = 0; i < axes_.axes(); ++i) { near_mm2_ += std::pow(axes_.kinematics()->step_mm(i), 2); }
+    for (const AxisIndex i : axis_indices(axes_.axes())) { near_mm2_ += std::pow(axes_.kinematics()->step_mm(i), 2); }
     places_.mm.resize(axes_.axes());
 }
 
@@ -25,7 +25,7 @@ void PathDistance::begin(const AskedPath& asked, std::size_t move) {
     bound_.forget();
 }
 
-bool PathDistance::step(std::size_t motor, std::int64_t count, int direction) {
+bool PathDistance::step(MotorIndex motor, std::int64_t count, int direction) {
     const bool is_next = std::exchange(counts_[motor], count) == count - direction;
     if (!is_next) { bound_.forget(); }
     axes_.go_to(motor, count, at_mm_);
@@ -67,7 +67,7 @@ std::size_t PathDistance::note_places(std::span<const MergedStep> steps, MotorsO
     std::size_t taken = 0;
     for (places_.size = 0; places_.size < Places::kMost && taken < steps.size(); ++taken) {
         const MergedStep& step = steps[taken];
-        const std::size_t motor = *motor_of_lane[step.lane()];
+        const MotorIndex motor = *motor_of_lane[step.lane()];
         counts_[motor] += step.direction();
         axes_.go_to(motor, counts_[motor], at_mm_);
         note_place(places_.size);
@@ -85,20 +85,20 @@ void PathDistance::note_block(std::span<const MergedStep, Places::kMost> steps, 
     IntLanes kind;
     load(kind, kinds.data());
     for (std::size_t i = 0; i < places_.mm.size(); ++i) {
-        if (std::ranges::find(motor_of_lane, std::optional(i)) == motor_of_lane.end()) {
+        if (std::ranges::find(motor_of_lane, std::optional(MotorIndex{i})) == motor_of_lane.end()) {
             places_.mm[i].fill(at_mm_[i]);
         }
     }
     for (std::size_t lane = 0; lane < motor_of_lane.size(); ++lane) {
         if (!motor_of_lane[lane]) { continue; }
-        const std::size_t motor = *motor_of_lane[lane];
+        const MotorIndex motor = *motor_of_lane[lane];
         const auto forward = static_cast<std::int32_t>(2 * lane);
         IntLanes sums = (kind == forward + 1) - (kind == forward);
         sum_up(sums);
         std::array<std::int32_t, Places::kMost> changes;
         store(sums, changes.data());
         const auto before = static_cast<double>(counts_[motor]);
-        const double mm_per_step = axes_.mm_per_step(motor);
+        const double mm_per_step = axes_.mm_per_step(AxisIndex{motor.number()});  // each motor is an axis
         for (std::size_t half = 0; half < Places::kMost; half += Places::kMost / 2) {
             HalfIntLanes change;
             load(change, changes.data() + half);
@@ -111,7 +111,7 @@ void PathDistance::note_block(std::span<const MergedStep, Places::kMost> steps, 
 }
 
 void PathDistance::note_place(std::size_t number) {
-    for (std::size_t axis = 0; axis < at_mm_.size(); ++axis) { places_.mm[axis][number] = at_mm_[axis]; }
+    for (AxisIndex axis{0}; axis < at_mm_.size(); ++axis) { places_.mm[axis][number] = at_mm_[axis]; }
 }
 
 /// Measures the distances of the places that may be farther than the farthest one.

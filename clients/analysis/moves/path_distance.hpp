@@ -14,7 +14,7 @@
 namespace lockstep::analysis {
 
 /// By lane; nullopt for a motor that the job does not have.
-using MotorsOfLanes = std::span<const std::optional<std::size_t>>;
+using MotorsOfLanes = std::span<const std::optional<MotorIndex>>;
 
 /// All functions that take the path need the one that was given to the constructor.
 class PathDistance {
@@ -26,13 +26,13 @@ public:
     /// The machine's motors are its axes.
     bool is_direct() const { return axes_.is_direct(); }
     /// Of a motor, after its newest step.
-    std::int64_t count(std::size_t motor) const { return counts_[motor]; }
+    std::int64_t count(MotorIndex motor) const { return counts_[motor]; }
     /// From here on the distance is that from this move.
     void begin(const AskedPath& asked, std::size_t move);
     /// A motor is at a count now. Returns false if that is not a step in `direction` from where it was.
-    bool step(std::size_t motor, std::int64_t count, int direction);
+    bool step(MotorIndex motor, std::int64_t count, int direction);
     /// A motor has made steps of which no distance is wanted.
-    void pass(std::size_t motor, std::int64_t change) { counts_[motor] += change; }
+    void pass(MotorIndex motor, std::int64_t change) { counts_[motor] += change; }
     /// The distance of the current place, if it is larger than `largest_square_mm2`.
     void measure(const AskedPath& asked, float& largest_square_mm2);
     /// Takes the steps of motors of the job, and measures the distance at each. If the motors are not the axes, only

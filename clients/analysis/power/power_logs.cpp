@@ -31,12 +31,10 @@ std::vector<PlacedWord> words_for(const OutputConfig& output, const std::vector<
 
 bool PowerLogs::begin(const MachineConfig& machine, const Kinematics& kinematics) {
     if (!powers_.empty()) { return false; }
-    const auto number = [&](const char* name) {
-        return static_cast<std::size_t>(std::ranges::find(machine.axes, name, &AxisConfig::name) -
-                                        machine.axes.begin());
-    };
-    if (std::max(number("X"), number("Y")) >= machine.axes.size()) { return false; }
-    const double step_mm = std::max(kinematics.step_mm(number("X")), kinematics.step_mm(number("Y")));
+    const auto x = machine.axis_named("X");
+    const auto y = machine.axis_named("Y");
+    if (!x || !y) { return false; }
+    const double step_mm = std::max(kinematics.step_mm(*x), kinematics.step_mm(*y));
     for (const OutputConfig& output : machine.outputs) {
         if (!output.is_analog()) { continue; }
         PowerMeter meter(PowerTrack(output.motor, output.channel), step_mm, machine.tick_ns);

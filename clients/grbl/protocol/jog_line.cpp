@@ -86,7 +86,7 @@ std::expected<JogWords, Refused> words_of(std::string_view text) {
 }
 
 struct Way {
-    std::size_t axis = 0;
+    AxisIndex axis;
     double mm = 0;
 };
 
@@ -98,16 +98,15 @@ std::expected<std::vector<Way>, Refused> ways_of(const JogWords& words, const Ma
     std::vector<Way> ways;
     for (const auto& [letter, value] : words.values) {
         if (letter == 'F') { continue; }
-        const auto found = std::ranges::find(machine.axes, std::string(1, letter), &AxisConfig::name);
-        if (found == machine.axes.end()) {
-            return Refusal({Error::BadJog, std::string("the machine has no axis ") + letter});
-        }
-        const auto axis = static_cast<std::size_t>(found - machine.axes.begin());
+        const auto found = machine.axis_named(std::string(1, letter));
+        if (!found) { return Refusal({Error::BadJog, std::string("the machine has no axis ") + letter}); }
+        const AxisIndex axis = *found;
+        const AxisConfig& config = machine.axes[axis];
         const double here = places[axis].mm;
         const double zero = words.in_machine ? 0 : modes.offset_mm[axis];
         const double to = relative ? here + value * unit : zero + value * unit;
-        const double half_step = 0.5 / found->steps_per_mm;
-        const bool is_within = to >= found->position_min_mm - half_step && to <= found->position_max_mm + half_step;
+        const double half_step = 0.5 / config.steps_per_mm;
+        const bool is_within = to >= config.position_min_mm - half_step && to <= config.position_max_mm + half_step;
         if (places[axis].homed && !is_within) {
             return Refusal({Error::TravelExceeded, std::string(1, letter) + " would leave its travel"});
         }
@@ -143,8 +142,7 @@ std::expected<std::vector<JogAxis>, Refused> read_jog(std::string_view text, con
     std::vector<JogAxis> jogs;
     for (const Way& way : *ways) {
         const double share = std::min(speed * way.mm / length, machine.axes[way.axis].max_velocity_mm_s);
-        jogs.push_back({static_cast<std::uint32_t>(way.axis),
-                        std::max(share, -machine.axes[way.axis].max_velocity_mm_s), std::abs(way.mm)});
+        jogs.push_back({way.axis, std::max(share, -machine.axes[way.axis].max_velocity_mm_s), std::abs(way.mm)});
     }
     return jogs;
 }

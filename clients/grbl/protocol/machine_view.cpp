@@ -18,8 +18,9 @@ MachineView view_of(const MachineConfig& machine, const MachineState& state, con
     view.fault = state.fault;
     if (state.fault != FaultCode::None && state.fault_axis && *state.fault_axis < motor_count(machine)) {
         const Kinematics kinematics(machine);
-        view.fault_place = kinematics.label(*state.fault_axis);
-        view.is_fault_of_board = kinematics.motors()[*state.fault_axis].is_board();
+        const MotorIndex motor{*state.fault_axis};
+        view.fault_place = kinematics.label(motor);
+        view.is_fault_of_board = kinematics.motors()[motor].is_board();
     }
     view.line = state.line;
     view.overrides = state.overrides;
@@ -46,7 +47,7 @@ MachineView view_of(const MachineConfig& machine, const MachineState& state, con
 }
 
 std::string letters_of_inputs(const MachineConfig& machine,
-                              const std::function<std::uint32_t(std::size_t motor)>& closed_of) {
+                              const std::function<std::uint32_t(MotorIndex motor)>& closed_of) {
     const MotorInputs inputs(machine);
     std::string letters;
     for (const InputUseRow& row : kInputUses | std::views::reverse) {
@@ -61,7 +62,7 @@ std::string letters_of_inputs(const MachineConfig& machine,
 }
 
 std::string letters_of_outputs(const MachineConfig& machine, const ProgramDevices& asked,
-                               const std::function<const AxisState*(std::size_t motor)>& state_of) {
+                               const std::function<const AxisState*(MotorIndex motor)>& state_of) {
     const auto is_on = [&](OutputUse use, bool is_asked) {
         bool has_output = false;
         for (const OutputConfig& output : machine.outputs) {

@@ -59,12 +59,12 @@ MachineView view_of(const MachineConfig& machine, const MachineState& state, con
 /// emergency stop. `closed_of`:
 /// the closed inputs of a motor's device, by the motor's number; 0 if it was not received.
 std::string letters_of_inputs(const MachineConfig& machine,
-                              const std::function<std::uint32_t(std::size_t motor)>& closed_of);
+                              const std::function<std::uint32_t(MotorIndex motor)>& closed_of);
 
 /// The letters of `A`: of the outputs that are on, as their devices report it. A word that no output of the machine
 /// follows is shown as the program asks.
 /// `state_of`: of a motor, by its number; nullptr if it was not received.
 std::string letters_of_outputs(const MachineConfig& machine, const ProgramDevices& asked,
-                               const std::function<const AxisState*(std::size_t motor)>& state_of);
+                               const std::function<const AxisState*(MotorIndex motor)>& state_of);
 
 }  // namespace lockstep::grbl

@@ -46,7 +46,7 @@ struct Request {
     };
     Kind kind = Kind::Stop;
     std::uint64_t number = 0;
-    AxisSet axes = 0;
+    AxisSet axes;
     Overrides overrides;
     std::vector<JogAxis> jogs;
     gcode::KeptValues values;

@@ -96,7 +96,7 @@ std::expected<KeptSettings, Refused> keys_for(const MachineConfig& machine, int 
     }
     KeptSettings settings;
     for (const AxisKey& key : kAxisKeys) {
-        for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        for (const AxisIndex i : axis_indices(machine.axes.size())) {
             if (number != key.first + (key.is_of_all ? 0 : static_cast<int>(i))) { continue; }
             settings.push_back({machine.axes[i].name, key.key, value_text(value / key.factor)});
         }

@@ -49,13 +49,11 @@ void SystemLines::sleep() {
 void SystemLines::home(std::string_view axis) {
     if (!shared_.is_quiet()) { return shared_.output.refuse(Error::NotIdle); }
     shared_.modes.is_aborted = false;
-    AxisSet axes = 0;
+    AxisSet axes;
     if (!axis.empty()) {
-        const auto found = std::ranges::find(shared_.machine.axes, axis, &AxisConfig::name);
-        if (found == shared_.machine.axes.end()) {
-            return shared_.output.refuse(Error::UnknownCommand, "the machine has no such axis");
-        }
-        axes = axis_bit(static_cast<std::size_t>(found - shared_.machine.axes.begin()));
+        const auto found = shared_.machine.axis_named(axis);
+        if (!found) { return shared_.output.refuse(Error::UnknownCommand, "the machine has no such axis"); }
+        axes.insert(*found);
     }
     shared_.requests.await(Request::Kind::Home).axes = axes;
 }

@@ -20,7 +20,7 @@ std::expected<std::vector<Lift>, std::string> lifts_named(const MachineConfig& m
 
 std::vector<Lift> lifts_to_safe_heights(const MachineConfig& machine) {
     std::vector<Lift> lifts;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         if (const auto height_mm = machine.axes[i].safe_height_mm) { lifts.push_back({i, *height_mm}); }
     }
     return lifts;
@@ -57,7 +57,7 @@ std::expected<std::vector<Lift>, std::string> lifts_of(const MachineConfig& mach
             "the work first, and a position clear of it: --lift Z=40; or --straight, to go there in one line");
     }
     std::vector<Lift> lifts;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         const HomingConfig& homing = machine.axes[i].homing;
         if (homing.sequence == first) { lifts.push_back({i, homing.park_mm}); }
     }

@@ -23,7 +23,7 @@ std::string modal_text(const MachineConfig& machine, const ModalState& modal) {
         std::string("  begins with ") + (modal.inches ? "G20" : "G21") + (modal.relative ? " G91" : " G90");
     text += modal.feed_mm_min ? " F" + fixed(*modal.feed_mm_min / (modal.inches ? 25.4 : 1), 1) : ", no feed yet";
     std::string offsets;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         if (modal.offset_mm[i] != 0) { offsets += " " + machine.axes[i].name + "=" + fixed(modal.offset_mm[i], 3); }
     }
     return text + (offsets.empty() ? ", no offset" : ", its 0 at" + offsets);

@@ -16,7 +16,7 @@ constexpr nanoseconds kFinalStatePatience = 1s;
 void add_final_positions(Session& session, proto::RunReport& report) {
     const nanoseconds end = monotonic_now();
     const MachineConfig& machine = session.config();
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         const auto rests = [&] {
             return session.received().axis(i) && session.received().axis(i)->time > end &&
                    session.received().axis(i)->state.at_rest;

@@ -18,7 +18,7 @@ struct Job {
     CommandKind command = CommandKind::Run;
     std::string kind;                            // as in the reports: "home", "move", "run", "own-move"
     std::string name;                            // of the program
-    AxisSet axes = 0;                            // home: the axes; empty for all
+    AxisSet axes;                                // home: the axes; empty for all
     std::optional<Program> program;              // move, run, own move
     std::optional<gcode::ProgramValues> values;  // run: the machine's values that it reads and changes
     ProgramStream* stream = nullptr;             // run: a program read while it runs, instead of `program`; each of

@@ -14,11 +14,11 @@ struct HomeOptions : LiveOptions {
 };
 
 std::expected<AxisSet, Failure> axes_of(const MachineConfig& machine, const std::vector<std::string>& names) {
-    AxisSet axes = 0;
+    AxisSet axes;
     for (const std::string& name : names) {
         const auto axis = find_axis(machine, name);
         if (!axis) { return std::unexpected(bad_input(axis.error())); }
-        axes |= axis_bit(*axis);
+        axes.insert(*axis);
     }
     return axes;
 }

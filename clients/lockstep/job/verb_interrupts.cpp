@@ -110,17 +110,17 @@ ExitCode interrupt_machine(const InterruptOptions& options, const Interrupt& int
 }
 
 /// Whether the axis is at rest with a fault, so that nothing moves it before a reset.
-bool is_stopped(const Session& session, std::size_t axis) {
-    const bool is_known = session.received().motor_present(axis);
-    return is_known && session.received().motor(axis)->state.at_rest &&
-           session.received().motor(axis)->state.fault != FaultCode::None;
+bool is_stopped(const Session& session, MotorIndex motor) {
+    const bool is_known = session.received().motor_present(motor);
+    return is_known && session.received().motor(motor)->state.at_rest &&
+           session.received().motor(motor)->state.fault != FaultCode::None;
 }
 
 /// Reports which axes have stopped by themselves, if no coordinator replies.
 ExitCode report_axes(const Session& session, Output& output) {
     std::string stopped;
     std::string other;
-    for (std::size_t i = 0; i < session.received().kinematics().motors().size(); ++i) {
+    for (const MotorIndex i : motor_indices(session.received().kinematics().motors().size())) {
         std::string& list = is_stopped(session, i) ? stopped : other;
         list += (list.empty() ? "" : ", ") + motor_name(session.config(), i);
     }

@@ -65,9 +65,10 @@ void JogKeys::press(std::string_view key, std::chrono::nanoseconds now) {
     for (std::size_t i = 0; i < std::min(machine_.axes.size(), kAxisKeys.size()); ++i) {
         if (key != kAxisKeys[i].minus && key != kAxisKeys[i].plus) { continue; }
         const bool is_plus = key == kAxisKeys[i].plus;
-        held_.erase({i, !is_plus});
-        held_[{i, is_plus}] = now;
-        next_step_ = {i, is_plus};
+        const AxisIndex axis{i};
+        held_.erase({axis, !is_plus});
+        held_[{axis, is_plus}] = now;
+        next_step_ = {axis, is_plus};
     }
 }
 
@@ -92,9 +93,7 @@ std::vector<JogAxis> JogKeys::jogs(std::chrono::nanoseconds now) const {
 
 JogAxis JogKeys::jog_of(const Direction& direction) const {
     const double speed = speed_mm_s(direction.axis);
-    return {.axis = static_cast<std::uint32_t>(direction.axis),
-            .speed_mm_s = direction.is_plus ? speed : -speed,
-            .distance_mm = step_mm_};
+    return {.axis = direction.axis, .speed_mm_s = direction.is_plus ? speed : -speed, .distance_mm = step_mm_};
 }
 
 std::optional<JogAxis> JogKeys::take_step() {

@@ -48,7 +48,7 @@ public:
 
 private:
     struct Direction {
-        std::size_t axis = 0;
+        AxisIndex axis;
         bool is_plus = false;
         auto operator<=>(const Direction&) const = default;
     };

@@ -23,7 +23,7 @@ std::string padded(std::string text, std::size_t width) {
     return text;
 }
 
-std::string line_of(const Session& session, const JogKeys& keys, std::size_t axis) {
+std::string line_of(const Session& session, const JogKeys& keys, AxisIndex axis) {
     const AxisConfig& config = session.config().axes[axis];
     const auto& received = session.received().axis(axis);
     if (!received) { return padded("  " + config.name, 8) + "not received\n"; }
@@ -40,7 +40,7 @@ std::string screen_text(const Session& session, const JogKeys& keys, const std::
     std::string text = session.config().name;
     if (session.state()) { text += ": " + std::string(name_of(session.state()->state.phase)); }
     text += "\n\n";
-    for (std::size_t i = 0; i < session.config().axes.size(); ++i) { text += line_of(session, keys, i); }
+    for (const AxisIndex i : axis_indices(session.config().axes.size())) { text += line_of(session, keys, i); }
     text += keys.makes_steps() ? "\nEach press of a key is one step; space ends it.\n"
                                : "\nHold a key to jog; an axis brakes 150 ms after the last repetition of its key.\n";
     text += "+ and - change the speed, space releases all, q quits.\n";

@@ -23,9 +23,7 @@ std::expected<JogAxis, std::string> jog_axis(const MachineConfig& machine, const
     const AxisConfig& config = machine.axes[*axis];
     const double speed = options.speed_mm_s.value_or(usual_jog_speed(config));
     if (!is_jog_speed(config, speed)) { return std::unexpected(jog_speed_text(config, speed)); }
-    return JogAxis{.axis = static_cast<std::uint32_t>(*axis),
-                   .speed_mm_s = direction == '+' ? speed : -speed,
-                   .distance_mm = options.distance_mm};
+    return JogAxis{.axis = *axis, .speed_mm_s = direction == '+' ? speed : -speed, .distance_mm = options.distance_mm};
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ void examine_board(const MachineConfig& machine, const BoardLinkConfig& board, F
 void examine_parts_here(const MachineConfig& machine, Findings& findings) {
     const Placement here = placed_on(machine, host_name());
     std::set<std::string> boards;  // with a link, that motors here use
-    for (const std::size_t i : here.axes) {
+    for (const MotorIndex i : here.axes) {
         const MotorConfig axis = motors_of(machine)[i];
         if (axis.device.kind == DeviceName::Kind::Linked) {
             boards.insert(axis.device.place);
@@ -116,7 +116,7 @@ void examine_keys(const MachineConfig& machine, Findings& findings) {
     const Placement here = placed_on(machine, host_name());
     std::set<std::string> needed;
     if (here.coordinator) { needed.insert(coordinator_member().name); }
-    for (const std::size_t i : here.axes) { needed.insert(axis_member(machine, i).name); }
+    for (const MotorIndex i : here.axes) { needed.insert(axis_member(machine, i).name); }
     const proto::KeysReport keys = keys_report(machine, machine.security.directory);
     for (const proto::MemberKeys& member : keys.members()) {
         if (!member.here() && !needed.contains(member.name())) { continue; }
@@ -137,17 +137,17 @@ void examine_processes(const ChosenMachine& machine, Findings& findings) {
     }
     for (const auto until = monotonic_now() + kListening; monotonic_now() < until;) { session->receive(100ms); }
     const std::vector<PresentProcess> present = session->present();
-    const auto add_process = [&](const std::string& name, std::optional<std::size_t> part, bool received,
+    const auto add_process = [&](const std::string& name, std::optional<MotorIndex> part, bool received,
                                  std::uint64_t hash) {
         doctor::ProcessFacts facts{name, received, hash, {}, !part};
         for (const PresentProcess& process : present) {
-            if (process.axis == part && !process.host.empty()) { facts.hosts.push_back(process.host); }
+            if (process.motor == part && !process.host.empty()) { facts.hosts.push_back(process.host); }
         }
         findings.push_back(doctor::rate_process(facts, machine.hash));
     };
     const auto& owner = session->state();
     add_process("coordinator", std::nullopt, owner.has_value(), owner ? owner->state.config_hash : 0);
-    for (std::size_t i = 0; i < motor_count(machine.config); ++i) {
+    for (const MotorIndex i : motor_indices(motor_count(machine.config))) {
         const auto& axis = session->received().motor(i);
         add_process(session->received().kinematics().label(i), i, axis.has_value(), axis ? axis->state.config_hash : 0);
     }

@@ -39,7 +39,7 @@ constexpr double kWaitForAll_s = 60;  // with --all, which starts all parts
 
 std::string names_here(const MachineConfig& machine, const Placement& placed) {
     std::string names = placed.coordinator ? "the coordinator" : "";
-    for (const std::size_t i : placed.axes) { names += (names.empty() ? "" : ", ") + motor_name(machine, i); }
+    for (const MotorIndex i : placed.axes) { names += (names.empty() ? "" : ", ") + motor_name(machine, i); }
     return names;
 }
 

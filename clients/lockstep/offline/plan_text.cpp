@@ -10,7 +10,7 @@ namespace {
 
 std::string places(const PlannedFile& input) {
     std::string text;
-    for (std::size_t i = 0; i < input.machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(input.machine.axes.size())) {
         text += " " + input.machine.axes[i].name + "=" + fixed(input.plan.start_mm[i], 3);
     }
     return text;

@@ -49,8 +49,8 @@ proto::RunReport run_report(const PlannedFile& input, const SimulationResult& re
     report.set_planned_s(input.plan.duration_s);
     report.set_real_s(static_cast<double>(result.motion.value) / input.machine.ticks_per_second());
     if (result.fault != FaultCode::None) {
-        *report.mutable_fault() = result.fault_axis
-                                      ? motor_fault(result.fault, Kinematics(input.machine), *result.fault_axis)
+        *report.mutable_fault() = result.fault_motor
+                                      ? motor_fault(result.fault, Kinematics(input.machine), *result.fault_motor)
                                       : fault_report(result.fault, "");
     }
     for (const ProbeTouch& touch : result.touches) { *report.add_probes() = probe_report(input.machine, touch); }

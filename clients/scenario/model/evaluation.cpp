@@ -69,11 +69,11 @@ private:
     void check_final(const Asked::Final& end) {
         const std::string asked = text_of(end);
         if (!evidence_.analysis) { return add(asked, evidence_.analysis.error(), kWholeLog, false); }
-        const auto config = std::ranges::find(machine_.axes, end.axis(), &AxisConfig::name);
-        const auto axis = static_cast<std::size_t>(config - machine_.axes.begin());
+        const AxisIndex axis = machine_.axis_named(end.axis()).value();
+        const AxisConfig& config = machine_.axes[axis];
         const auto found = final_place(*evidence_.analysis, machine_, axis);
         if (!found) { return add(asked, found.error(), kWholeLog, false); }
-        const std::int64_t off = std::abs(to_steps(*config, found->mm) - to_steps(*config, end.mm()));
+        const std::int64_t off = std::abs(to_steps(config, found->mm) - to_steps(config, end.mm()));
         const bool held =
             end.has_within_mm() ? std::abs(found->mm - end.mm()) <= end.within_mm() : off <= found->off_rest;
         add(asked, "at " + mm_text(found->mm), place_at(found->last) + ", the last step of " + end.axis(), held);

@@ -18,7 +18,7 @@ const proto::AxisAnalysis* analysis_of(const proto::AnalysisReport& analysis, co
 }  // namespace
 
 std::expected<FinalPlace, std::string> final_place(const proto::AnalysisReport& analysis, const MachineConfig& machine,
-                                                   std::size_t axis) {
+                                                   AxisIndex axis) {
     const Kinematics kinematics(machine);
     if (const auto own = kinematics.own_motor(axis); own && !kinematics.corrects_screw(*own)) {
         const proto::AxisAnalysis* const found = analysis_of(analysis, kinematics.motors()[*own].name);

@@ -18,6 +18,6 @@ struct FinalPlace {
 
 /// The error says what is not on record, or which motor is not where the others place it.
 std::expected<FinalPlace, std::string> final_place(const proto::AnalysisReport& analysis, const MachineConfig& machine,
-                                                   std::size_t axis);
+                                                   AxisIndex axis);
 
 }  // namespace lockstep::scenario

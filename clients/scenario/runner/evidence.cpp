@@ -33,7 +33,7 @@ std::expected<proto::MergeReport, std::string> merge_logs(const MachineConfig& m
 
 std::string name_of_peer(const incident::Incident& incident, const FlightPeer& peer) {
     if (peer.kind == FlightPeer::Kind::None) { return ""; }
-    return peer.kind == FlightPeer::Kind::Axis ? "axis-" + motor_name(incident.machine, peer.axis) : "coordinator";
+    return peer.kind == FlightPeer::Kind::Axis ? "axis-" + motor_name(incident.machine, peer.motor()) : "coordinator";
 }
 
 /// Ignores vetoes for an axis's own fault or stop.
@@ -51,7 +51,7 @@ void read_incident_files(const MachineConfig& machine, Evidence& evidence) {
         for (const incident::Entry& entry : incident.timeline) {
             const FlightPeer& who = incident.processes[entry.process].who;
             if (lacks_something(entry.event) && who.kind == FlightPeer::Kind::Axis) {
-                evidence.vetoed_by.insert(motor_name(incident.machine, who.axis));
+                evidence.vetoed_by.insert(motor_name(incident.machine, who.motor()));
             }
         }
     }

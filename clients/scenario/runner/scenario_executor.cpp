@@ -47,9 +47,9 @@ std::string text_of(const Failure& failure) { return to_text(failure.file, failu
 /// Whether states of all axes with active processes came since then.
 bool receives_all(const Session& session, ProcessSet& processes, nanoseconds since) {
     const std::vector<std::string> motors = motor_names(session.config());
-    for (std::size_t i = 0; i < motors.size(); ++i) {
+    for (const MotorIndex i : motor_indices(motors.size())) {
         const bool is_received = session.received().motor(i) && session.received().motor(i)->time > since &&
-                                 has_axis(session.state()->state.axes_present, i);
+                                 session.state()->state.motors_present.contains(i);
         if (processes.is_active("axis-" + motors[i]) && !is_received) { return false; }
     }
     return true;
@@ -57,7 +57,7 @@ bool receives_all(const Session& session, ProcessSet& processes, nanoseconds sin
 
 /// Ignores axes with overdue states.
 bool all_present_rest(const Session& session) {
-    for (std::size_t i = 0; i < motor_count(session.config()); ++i) {
+    for (const MotorIndex i : motor_indices(motor_count(session.config()))) {
         if (session.received().motor_present(i) && !session.received().motor(i)->state.at_rest) { return false; }
     }
     return true;
@@ -69,7 +69,7 @@ Moment moment_of(const Session& session, nanoseconds begun) {
         now.phase = session.state()->state.phase;
         now.line = session.state()->state.line;
     }
-    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(session.config().axes.size())) {
         const auto& axis = session.received().axis(i);
         now.at_mm.push_back(axis ? std::optional(to_mm(session.config().axes[i], axis->state.position.as_steps()))
                                  : std::nullopt);
@@ -172,7 +172,7 @@ void ScenarioExecutor::execute_job(const Step& step) {
 std::expected<Reply, std::string> ScenarioExecutor::begin(const Step& step) {
     Command command{.kind = command_of(step)};
     for (const std::string& name : step.home().axis()) {
-        command.axes |= axis_bit(find_axis(scenario_.machine, name).value_or(0));
+        command.axes.insert(find_axis(scenario_.machine, name).value());
     }
     if (!step.has_home()) {
         const auto program = send(step);
@@ -268,7 +268,7 @@ void ScenarioExecutor::settle() {
     const nanoseconds since = monotonic_now();
     const auto is_settled = [&] {
         const std::vector<std::string> motors = motor_names(scenario_.machine);
-        for (std::size_t i = 0; i < motors.size(); ++i) {
+        for (const MotorIndex i : motor_indices(motors.size())) {
             if (session_.received().motor_present(i) != processes_.is_active("axis-" + motors[i])) { return false; }
         }
         return !acts_.has_more_to_undo();

@@ -23,7 +23,7 @@ std::optional<TouchOrError> received_touch(const Session& session, std::uint64_t
     const auto& result = session.state()->state.probe;
     if (!result || result->job != job) { return std::nullopt; }
     std::vector<double> rest_mm;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         const auto& axis = session.received().axis(i);
         if (!axis || axis->time <= since || !axis->state.at_rest) { return std::nullopt; }
         rest_mm.push_back(to_mm(machine.axes[i], static_cast<double>(axis->state.position.count())));
@@ -48,7 +48,7 @@ proto::ProbeReport probe_report(const MachineConfig& machine, const ProbeTouch& 
     proto::ProbeReport report;
     report.set_touched(touch.touched);
     if (touch.input && *touch.input < machine.inputs.size()) { report.set_input(machine.inputs[*touch.input].name); }
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         proto::ProbePlace& place = *report.add_places();
         place.set_name(machine.axes[i].name);
         place.set_position_mm(touch.places_mm[i]);

@@ -54,15 +54,15 @@ std::vector<const proto::AxisStatus*> rows_of_axis(const proto::StatusReport& st
 }  // namespace
 
 void add_homing(const MachineConfig& config, const Kinematics& kinematics,
-                const std::function<const AxisState*(std::size_t)>& state_of, const MachineState* machine,
+                const std::function<const AxisState*(MotorIndex)>& state_of, const MachineState* machine,
                 proto::StatusReport& report) {
     for (int i = 0; i < report.axes_size(); ++i) {
-        const auto own = kinematics.own_motor(static_cast<std::size_t>(i));
+        const auto own = kinematics.own_motor(AxisIndex{static_cast<std::size_t>(i)});
         if (own) { add_by_itself(state_of(*own), *report.mutable_axes(i)); }
     }
     for (proto::AxisStatus& row : *report.mutable_motors()) {
         const auto motor = std::ranges::find(kinematics.motors(), row.name(), &MotorConfig::name);
-        add_by_itself(state_of(static_cast<std::size_t>(motor - kinematics.motors().begin())), row);
+        add_by_itself(state_of(MotorIndex{static_cast<std::size_t>(motor - kinematics.motors().begin())}), row);
     }
     if (machine != nullptr && machine->homing) { add_by_touch(*machine->homing, config, report); }
 }
@@ -70,7 +70,7 @@ void add_homing(const MachineConfig& config, const Kinematics& kinematics,
 std::string homing_text(const proto::StatusReport& status, AxisSet axes) {
     std::vector<const proto::AxisStatus*> rows;
     for (int i = 0; i < status.axes_size(); ++i) {
-        if (axes != 0 && !has_axis(axes, static_cast<std::size_t>(i))) { continue; }
+        if (!axes.empty() && !axes.contains(AxisIndex{static_cast<std::size_t>(i)})) { continue; }
         std::ranges::copy(rows_of_axis(status, status.axes(i)), std::back_inserter(rows));
     }
     std::string moving;

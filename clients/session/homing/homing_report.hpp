@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "core/axis_set.hpp"
+#include "core/indices.hpp"
 #include "core/kinematics/kinematics.hpp"
 #include "core/protocol/messages.hpp"
 #include "idl/proto/report.pb.h"
@@ -16,7 +16,7 @@ namespace lockstep {
 /// of the inputs.
 /// `state_of(motor)`: null if none was received. `machine`: null likewise.
 void add_homing(const MachineConfig& config, const Kinematics& kinematics,
-                const std::function<const AxisState*(std::size_t)>& state_of, const MachineState* machine,
+                const std::function<const AxisState*(MotorIndex)>& state_of, const MachineState* machine,
                 proto::StatusReport& report);
 
 /// One line: "X homed at 12.000   Y searches y_home (open)   Z waits for Y". `axes`: that are asked to home; 0: all. An

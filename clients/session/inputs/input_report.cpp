@@ -26,11 +26,11 @@ void add_inputs(const MachineConfig& machine, const ClosedInputs& closed_of, pro
         input.set_use(std::string(name_of(config.use)));
         if (config.number) { input.set_number(static_cast<std::uint32_t>(*config.number)); }
         if (!closed_of(places.motor(i))) { continue; }
-        input.set_closed(places.is_closed(i, [&](std::size_t motor) { return *closed_of(motor); }));
+        input.set_closed(places.is_closed(i, [&](MotorIndex motor) { return *closed_of(motor); }));
     }
 }
 
-void name_inputs(const MachineConfig& machine, std::size_t motor, proto::FaultReport& fault) {
+void name_inputs(const MachineConfig& machine, MotorIndex motor, proto::FaultReport& fault) {
     const auto inputs = causes_of(machine, motor_name(machine, motor), static_cast<FaultCode>(fault.number()));
     if (!inputs.empty()) { fault.set_cause(fault.cause() + ": " + inputs); }
 }

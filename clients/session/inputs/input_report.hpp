@@ -12,13 +12,13 @@
 namespace lockstep {
 
 /// The closed inputs of a motor's device, by the motor's number; nullopt if it was never received.
-using ClosedInputs = std::function<std::optional<std::uint32_t>(std::size_t motor)>;
+using ClosedInputs = std::function<std::optional<std::uint32_t>(MotorIndex motor)>;
 
 /// Adds the inputs in the order of the machine's file.
 void add_inputs(const MachineConfig& machine, const ClosedInputs& closed_of, proto::StatusReport& report);
 
 /// Names the motor's inputs in a fault that they caused.
-void name_inputs(const MachineConfig& machine, std::size_t motor, proto::FaultReport& fault);
+void name_inputs(const MachineConfig& machine, MotorIndex motor, proto::FaultReport& fault);
 
 /// Names the inputs of probes that are closed now, in the fault of a probing move that could not begin because of them.
 void name_closed_probes(const proto::StatusReport& status, proto::FaultReport& fault);

@@ -12,7 +12,7 @@
 namespace lockstep {
 
 /// The newest state of a motor, by its number; nullptr if it was never received.
-using StateOfMotor = std::function<const AxisState*(std::size_t motor)>;
+using StateOfMotor = std::function<const AxisState*(MotorIndex motor)>;
 
 /// Adds the outputs in the order of the machine's file. `state`: of the coordinator; nullptr if it was never received.
 void add_outputs(const MachineConfig& machine, const StateOfMotor& state_of, const MachineState* state,

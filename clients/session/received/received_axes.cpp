@@ -22,23 +22,21 @@ ReceivedAxes::ReceivedAxes(const MachineConfig& machine)
       motors_(kinematics_.motors().size()),
       axes_(kinematics_.axes()),
       healths_(motors_.size()) {
-    for (std::size_t i = 0; i < axes_.size(); ++i) { needed_.push_back(motors_needed_for(i, kinematics_)); }
+    for (const AxisIndex i : axis_indices(axes_.size())) { needed_.push_back(motors_needed_for(i, kinematics_)); }
 }
 
 /// An axis is as old as the oldest state that its place needs.
 void ReceivedAxes::take(AxisState&& state, nanoseconds now) {
     if (state.axis >= motors_.size()) { return; }
-    const std::size_t motor = state.axis;
+    const MotorIndex motor = state.motor();
     motors_[motor] = {std::move(state), now};
     const std::vector<const AxisState*> states = motor_states();
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-        if (!has_axis(needed_[i], motor)) { continue; }
+    for (const AxisIndex i : axis_indices(axes_.size())) {
+        if (!needed_[i].contains(motor)) { continue; }
         auto axis = axis_state_of(i, kinematics_, states);
         if (!axis) { continue; }
         nanoseconds oldest = now;
-        for (std::size_t m = 0; m < motors_.size(); ++m) {
-            if (has_axis(needed_[i], m)) { oldest = std::min(oldest, motors_[m]->time); }
-        }
+        for (const MotorIndex m : needed_[i]) { oldest = std::min(oldest, motors_[m]->time); }
         axes_[i] = {*std::move(axis), oldest};
     }
 }
@@ -47,11 +45,11 @@ void ReceivedAxes::take(AxisHealth&& health) {
     if (health.axis < healths_.size()) { healths_[health.axis] = health; }
 }
 
-double ReceivedAxes::axis_speed(std::size_t i) const { return axis_speed_of(i, kinematics_, motor_states()); }
+double ReceivedAxes::axis_speed(AxisIndex i) const { return axis_speed_of(i, kinematics_, motor_states()); }
 
 std::string ReceivedAxes::names() const {
     std::string names;
-    for (std::size_t i = 0; i < motors_.size(); ++i) {
+    for (const MotorIndex i : motor_indices(motors_.size())) {
         if (motor_present(i)) { names += (names.empty() ? "" : ", ") + kinematics_.motors()[i].name; }
     }
     return names;

@@ -26,15 +26,15 @@ public:
 
     const Kinematics& kinematics() const { return kinematics_; }
     /// The newest state of a motor, of an axis by its motors (axis_state_of), and the axis's speed in steps per tick.
-    const std::optional<Received<AxisState>>& motor(std::size_t i) const { return motors_[i]; }
-    const std::optional<Received<AxisState>>& axis(std::size_t i) const { return axes_[i]; }
-    double axis_speed(std::size_t i) const;
+    const std::optional<Received<AxisState>>& motor(MotorIndex i) const { return motors_[i]; }
+    const std::optional<Received<AxisState>>& axis(AxisIndex i) const { return axes_[i]; }
+    double axis_speed(AxisIndex i) const;
     /// Of a motor.
-    const std::optional<AxisHealth>& health(std::size_t motor) const { return healths_[motor]; }
+    const std::optional<AxisHealth>& health(MotorIndex motor) const { return healths_[motor]; }
     /// Whether a state came within the time after which the machine counts a motor as absent.
-    bool motor_present(std::size_t i) const { return is_recent(motors_[i]); }
+    bool motor_present(MotorIndex i) const { return is_recent(motors_[i]); }
     /// The same of all motors that the axis's place needs.
-    bool axis_present(std::size_t i) const { return is_recent(axes_[i]); }
+    bool axis_present(AxisIndex i) const { return is_recent(axes_[i]); }
     /// The names of the motors that are present.
     std::string names() const;
 
@@ -46,7 +46,7 @@ private:
     Kinematics kinematics_;
     std::vector<std::optional<Received<AxisState>>> motors_;
     std::vector<std::optional<Received<AxisState>>> axes_;  // by their motors
-    std::vector<AxisSet> needed_;                           // of each axis: motors_needed_for
+    std::vector<MotorSet> needed_;                          // of each axis: motors_needed_for
     std::vector<std::optional<AxisHealth>> healths_;
 };
 

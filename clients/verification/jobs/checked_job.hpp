@@ -44,7 +44,7 @@ struct CheckedJob {
     }
     /// An axis did not run its whole part of an epoch.
     void break_off(const Shortfall& shortfall, const Findings& findings) {
-        broken_axis = motor_name(replay->machine(), shortfall.axis);
+        broken_axis = motor_name(replay->machine(), shortfall.motor);
         broken = findings.label_of(broken_axis) + " " + shortfall.text;
     }
 };

@@ -11,8 +11,8 @@ namespace lockstep::verification {
 namespace {
 
 /// Returns the planned run, in machine time. `clock_error`: the tolerance of each step.
-Run planned_run(const Frame& frame, std::size_t axis, bool tail, Ticks clock_error) {
-    const AxisTrack& track = frame.axes[axis];
+Run planned_run(const Frame& frame, MotorIndex motor, bool tail, Ticks clock_error) {
+    const AxisTrack& track = frame.axes[motor];
     Run run{.epoch = frame.epoch,
             .frame = frame.number,
             .start = frame.start,
@@ -35,15 +35,15 @@ EpochCheck::EpochCheck(const MachineConfig& machine, EpochReplay replay, const M
     for (const Position place : at) { axes_.push_back({.at = place}); }
 }
 
-std::optional<RunDifference> EpochCheck::compare(std::size_t axis, const Run& run, bool is_behind_gap) {
-    Progress& progress = axes_[axis];
+std::optional<RunDifference> EpochCheck::compare(MotorIndex motor, const Run& run, bool is_behind_gap) {
+    Progress& progress = axes_[motor];
     const std::string why = is_behind_gap ? "" : out_of_order(progress, run);
     if (!why.empty()) { return RunDifference{why, std::nullopt, run.start}; }
     const Frame* frame = replay_.frame(run.frame);
     if (frame == nullptr) { return RunDifference{" is not in the plan", std::nullopt, run.start}; }
-    const Run planned = planned_run(*frame, axis, run.tail, run.clock_error);
+    const Run planned = planned_run(*frame, motor, run.tail, run.clock_error);
     const auto joins = is_behind_gap ? std::nullopt : progress.end;
-    const bool is_retimed = estimates_clock(machine_, axis) && !run.commanded_ticks.empty();
+    const bool is_retimed = estimates_clock(machine_, motor) && !run.commanded_ticks.empty();
     if (auto found = is_retimed ? compare_retimed(planned, run, joins) : compare_runs(planned, run)) {
         found->text = " " + found->text;
         return found;
@@ -62,7 +62,7 @@ std::string EpochCheck::out_of_order(const Progress& axis, const Run& run) const
     return run.frame == next && run.frame > 0 ? "" : after;
 }
 
-std::optional<Shortfall> EpochCheck::shortfall_of(std::size_t i) {
+std::optional<Shortfall> EpochCheck::shortfall_of(MotorIndex i) {
     const Progress& axis = axes_[i];
     const std::string frame = fmt::format("frame {}", axis.ran);
     if (axis.cut) { return Shortfall{Shortfall::Kind::Cut, i, "was stopped early in " + frame}; }
@@ -72,45 +72,46 @@ std::optional<Shortfall> EpochCheck::shortfall_of(std::size_t i) {
     return silent(i);
 }
 
-Shortfall EpochCheck::silent(std::size_t i) const {
+Shortfall EpochCheck::silent(MotorIndex i) const {
     const std::string after =
         axes_[i].ran == 0 ? "has no frame of its epoch in the log"
                           : fmt::format("has nothing in the log after frame {}, which is not its last", axes_[i].ran);
     return {Shortfall::Kind::Silent, i, after};
 }
 
-std::size_t EpochCheck::least_far() const {
-    return static_cast<std::size_t>(std::ranges::min_element(axes_, {}, &Progress::ran) - axes_.begin());
+MotorIndex EpochCheck::least_far() const {
+    const auto least = std::ranges::min_element(axes_, {}, &Progress::ran);
+    return MotorIndex{static_cast<std::size_t>(least - axes_.begin())};
 }
 
 std::optional<Shortfall> EpochCheck::shortfall() {
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-        if (auto found = shortfall_of(i)) { return found; }
+    for (const MotorIndex m : motor_indices(axes_.size())) {
+        if (auto found = shortfall_of(m)) { return found; }
     }
     const EpochEnd found = end();
-    const std::size_t least = least_far();
+    const MotorIndex least = least_far();
     switch (found.kind) {
         case EpochEnd::Kind::FramesDiffer:
             if (!axes_[least].in_tail && !axes_[least].cut) { return silent(least); }
-            return Shortfall{Shortfall::Kind::Differs, found.axis, "ran other frames than the rest"};
+            return Shortfall{Shortfall::Kind::Differs, found.motor, "ran other frames than the rest"};
         case EpochEnd::Kind::Misplaced:
-            return Shortfall{Shortfall::Kind::Differs, found.axis, "is not where its frames end"};
+            return Shortfall{Shortfall::Kind::Differs, found.motor, "is not where its frames end"};
         case EpochEnd::Kind::Complete:
         case EpochEnd::Kind::Interrupted: break;
     }
     return std::nullopt;
 }
 
-Position EpochCheck::rests_at(std::size_t axis, const Frame& frame) const {
-    const Run body = planned_run(frame, axis, false, {});
-    return frame.last ? body.to() : planned_run(frame, axis, true, {}).to();
+Position EpochCheck::rests_at(MotorIndex motor, const Frame& frame) const {
+    const Run body = planned_run(frame, motor, false, {});
+    return frame.last ? body.to() : planned_run(frame, motor, true, {}).to();
 }
 
-bool EpochCheck::assume_complete(std::size_t axis) {
+bool EpochCheck::assume_complete(MotorIndex motor) {
     const FrameNumber most = ran();
     const Frame* last = most > 0 ? replay_.frame(most) : nullptr;
     if (last == nullptr) { return false; }
-    axes_[axis] = {most, !last->last, false, rests_at(axis, *last), std::nullopt};
+    axes_[motor] = {most, !last->last, false, rests_at(motor, *last), std::nullopt};
     return true;
 }
 
@@ -122,8 +123,8 @@ EpochEnd EpochCheck::end() const {
 
 FrameNumber EpochCheck::ran() const { return std::ranges::max_element(axes_, {}, &Progress::ran)->ran; }
 
-std::vector<Course> EpochCheck::courses_of(std::size_t axis, EpochReplay& ahead) const {
-    const Progress& progress = axes_[axis];
+std::vector<Course> EpochCheck::courses_of(MotorIndex motor, EpochReplay& ahead) const {
+    const Progress& progress = axes_[motor];
     std::vector<Course> courses;
     if (progress.cut || progress.in_tail) { return courses; }
     Course frames;
@@ -131,9 +132,9 @@ std::vector<Course> EpochCheck::courses_of(std::size_t axis, EpochReplay& ahead)
     for (FrameNumber number = progress.ran; number <= progress.ran + unrecorded; ++number) {
         const Frame* frame = number > 0 ? ahead.frame(number) : nullptr;
         if (number > progress.ran && frame == nullptr) { break; }
-        if (number > progress.ran) { frames.push_back(planned_run(*frame, axis, false, known_within())); }
+        if (number > progress.ran) { frames.push_back(planned_run(*frame, motor, false, known_within())); }
         Course course = frames;
-        if (frame != nullptr) { course.push_back(planned_run(*frame, axis, true, known_within())); }
+        if (frame != nullptr) { course.push_back(planned_run(*frame, motor, true, known_within())); }
         if (!course.empty()) { courses.push_back(std::move(course)); }
     }
     return courses;

@@ -24,7 +24,7 @@ struct Shortfall {
         Differs,  // it ran other frames than the rest, or rests elsewhere
     };
     Kind kind = Kind::Silent;
-    std::size_t axis = 0;
+    MotorIndex motor;
     std::string text;  // "ran other frames than the rest"
 };
 
@@ -39,17 +39,17 @@ public:
     const EpochReplay& replay() const { return replay_; }
 
     /// Whether a run of an axis follows its newest one in the log.
-    bool follows(std::size_t axis, const Run& run) const { return out_of_order(axes_[axis], run).empty(); }
+    bool follows(MotorIndex motor, const Run& run) const { return out_of_order(axes_[motor], run).empty(); }
     /// Compares the next run of an axis. Returns why it is not the planned one; nullopt if it is. `is_behind_gap`: runs
     /// before it are missing from the log.
-    std::optional<RunDifference> compare(std::size_t axis, const Run& run, bool is_behind_gap);
+    std::optional<RunDifference> compare(MotorIndex motor, const Run& run, bool is_behind_gap);
 
     /// The first axis that did not run its last frame and tail to their end, and why; nullopt if all did.
     std::optional<Shortfall> shortfall();
-    std::optional<Shortfall> shortfall_of(std::size_t axis);
+    std::optional<Shortfall> shortfall_of(MotorIndex motor);
     /// Takes an axis whose runs are missing for one that ran what the others ran. Returns false if no other axis ran
     /// further than it.
-    bool assume_complete(std::size_t axis);
+    bool assume_complete(MotorIndex motor);
     /// How the epoch ended, by the coordinator's own evaluation.
     EpochEnd end() const;
     /// The highest frame that an axis ran.
@@ -59,7 +59,7 @@ public:
     /// the tail of the last frame, or the path's end if it has no tail. Before its process ended, an axis may have run
     /// or armed, without a record, the frame in motion and all frames that were sent ahead. `ahead`: makes these
     /// frames.
-    std::vector<Course> courses_of(std::size_t axis, EpochReplay& ahead) const;
+    std::vector<Course> courses_of(MotorIndex motor, EpochReplay& ahead) const;
 
 private:
     struct Progress {  // of an axis
@@ -73,9 +73,9 @@ private:
     /// The largest clock error with which an axis moves.
     Ticks known_within() const { return machine_.estimates_clocks() ? machine_.clock_error_limit() : Ticks{}; }
     std::string out_of_order(const Progress& axis, const Run& run) const;
-    Shortfall silent(std::size_t axis) const;
-    std::size_t least_far() const;
-    Position rests_at(std::size_t axis, const Frame& frame) const;
+    Shortfall silent(MotorIndex motor) const;
+    MotorIndex least_far() const;
+    Position rests_at(MotorIndex motor, const Frame& frame) const;
 
     MachineConfig machine_;
     EpochReplay replay_;

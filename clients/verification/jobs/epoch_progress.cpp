@@ -32,9 +32,9 @@ void EpochProgress::lose() {
     epoch_.reset();
 }
 
-void EpochProgress::take_equal(const AxisRun& of, std::size_t axis, const std::function<std::string()>& commanded) {
+void EpochProgress::take_equal(const AxisRun& of, MotorIndex motor, const std::function<std::string()>& commanded) {
     ++findings_.runs;
-    outputs_.take(of, epoch_->replay().frame(of.run.frame), axis, commanded);
+    outputs_.take(of, epoch_->replay().frame(of.run.frame), motor, commanded);
 }
 
 void EpochProgress::close(CheckedJob& job, bool goes_on, bool lacks_events) {
@@ -53,10 +53,10 @@ void EpochProgress::close(CheckedJob& job, bool goes_on, bool lacks_events) {
 /// If an axis has nothing more in the log, its runs may be missing. The epoch is then taken for complete, if others ran
 /// further; the axis's next run shows whether runs are missing.
 bool EpochProgress::suspect(const Shortfall& shortfall, const std::string& job) {
-    const std::string& axis = motor_name(epoch_->machine(), shortfall.axis);
+    const std::string& axis = motor_name(epoch_->machine(), shortfall.motor);
     if (shortfall.kind != Shortfall::Kind::Silent) { return false; }
     const FrameNumber most = epoch_->ran();
-    if (!epoch_->assume_complete(shortfall.axis)) { return false; }
+    if (!epoch_->assume_complete(shortfall.motor)) { return false; }
     questions_.ask_silence(axis, epoch_->epoch(),
                            {.text = fmt::format("{} {}, though {} went on to frame {}", findings_.label_of(axis),
                                                 shortfall.text, job, most),
@@ -89,9 +89,9 @@ void EpochProgress::note_pulses() {
     }
 }
 
-std::vector<Course> EpochProgress::planned(const std::string& axis, Tick tick) {
+std::vector<Course> EpochProgress::planned(const std::string& motor, Tick tick) {
     if (epoch_) { courses_.plan(*epoch_); }
-    return courses_.of(axis, tick);
+    return courses_.of(motor, tick);
 }
 
 }  // namespace lockstep::verification

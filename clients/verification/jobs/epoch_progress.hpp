@@ -35,7 +35,7 @@ public:
 
     void begin(CheckedJob& job, EpochStart start, const RecordedJob& record);
     /// A run that is as planned. `commanded`: its job and its frame.
-    void take_equal(const AxisRun& of, std::size_t axis, const std::function<std::string()>& commanded);
+    void take_equal(const AxisRun& of, MotorIndex motor, const std::function<std::string()>& commanded);
     /// The further runs are not compared with the plan.
     void lose();
     /// Compares the epoch's end, and takes the state of the job after it. `goes_on`: the job does. `lacks_events`: the
@@ -44,7 +44,7 @@ public:
 
     /// The runs that the plan allows an axis after its newest run, from a step at that tick on. Empty if there are
     /// none.
-    std::vector<Course> planned(const std::string& axis, Tick tick);
+    std::vector<Course> planned(const std::string& motor, Tick tick);
 
 private:
     bool suspect(const Shortfall& shortfall, const std::string& job);

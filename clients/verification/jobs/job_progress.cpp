@@ -19,10 +19,6 @@
 namespace lockstep::verification {
 namespace {
 
-std::size_t index_of(const MachineConfig& machine, const std::string& axis) {
-    return motor_named(machine, axis).value_or(motor_count(machine));
-}
-
 /// An epoch begins at most so long after the coordinator has looked at the inputs of its probe.
 constexpr double kLook_s = 2;
 
@@ -189,7 +185,7 @@ void JobProgress::take_probe(const RecordedJob& record) {
     if (!epoch_ || record.outcome != "touched") { return; }
     const JobReplay& replay = *job_->replay;
     const MotorPositions motors = job_->slides_of(epoch_->replay().positions_at({record.start_tick}, epoch_->ran()));
-    for (std::size_t i = 0; i < replay.machine().axes.size() && i < record.start_count.size(); ++i) {
+    for (AxisIndex i; i < std::min(replay.machine().axes.size(), record.start_count.size()); ++i) {
         const AxisConfig& axis = replay.machine().axes[i];
         const double mm = replay.kinematics().axis_steps(i, motors) / axis.steps_per_mm;
         const std::int64_t planned = std::llround(mm * kNmInMm);
@@ -235,17 +231,17 @@ void JobProgress::end(const RecordedJob& record) {
 
 void JobProgress::take(const AxisRun& of) {
     const auto& [name, run, is_behind_gap] = of;
-    const std::size_t axis = index_of(job_->replay->machine(), name);
-    if (axis == motor_count(job_->replay->machine())) {
+    const auto motor = motor_named(job_->replay->machine(), name);
+    if (!motor) {
         return differ(findings_.label_of(name) + " ran a frame of a machine that has no such axis", name, &run);
     }
-    if (is_behind_gap && !epoch_->follows(axis, run)) {
+    if (is_behind_gap && !epoch_->follows(*motor, run)) {
         findings_.add_missing(fmt::format("{}: runs before {} of epoch {} are not in the log", findings_.label_of(name),
                                           name_of(run), run.epoch));
     }
-    const auto found = epoch_->compare(axis, run, is_behind_gap);
+    const auto found = epoch_->compare(*motor, run, is_behind_gap);
     if (!found) {
-        return epoch_.take_equal(of, axis, [&] { return commanded(run, run.start); });
+        return epoch_.take_equal(of, *motor, [&] { return commanded(run, run.start); });
     }
     if (job_->replay->program()->failure()) { return differ("", name, &run); }
     questions_.ask_plan({findings_.label_of(name) + ": " + name_of(run) + found->text, name, found->tick_expected,
@@ -267,7 +263,7 @@ void JobProgress::leave_in_motion() {
 /// Handles a job without an end, although all axes have come to rest, or their processes have ended.
 void JobProgress::leave_at_rest(const LogEnd& end) {
     if (job_->replay && epoch_) {
-        for (std::size_t i = 0; i < motor_count(job_->replay->machine()); ++i) {
+        for (const MotorIndex i : motor_indices(motor_count(job_->replay->machine()))) {
             const std::string& axis = motor_name(job_->replay->machine(), i);
             const auto found = epoch_->shortfall_of(i);
             if (!found || found->kind == Shortfall::Kind::Cut || end.has_ended(axis)) { continue; }

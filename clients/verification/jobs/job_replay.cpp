@@ -20,7 +20,7 @@ std::expected<JobReplay, std::string> JobReplay::plan(const MachineConfig& machi
         return std::unexpected(std::string("it starts with another number of axes than the machine has"));
     }
     AxisCounts start;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) { (void)start.push_back(start_counts[i]); }
+    for (const AxisIndex i : axis_indices(machine.axes.size())) { (void)start.push_back(start_counts[i]); }
     auto legs = ProgramPlanner(machine).plan(program->head(), *program, start);
     if (!legs) { return std::unexpected(legs.error().text); }
     return JobReplay(machine, std::move(program), std::move(*legs));

@@ -18,7 +18,7 @@ public:
     void plan(const EpochCheck& epoch) {
         EpochReplay ahead = epoch.replay();
         const std::vector<std::string> motors = motor_names(epoch.machine());
-        for (std::size_t i = 0; i < motors.size(); ++i) { planned_[motors[i]] = epoch.courses_of(i, ahead); }
+        for (const MotorIndex i : motor_indices(motors.size())) { planned_[motors[i]] = epoch.courses_of(i, ahead); }
     }
     /// From a step at that tick on. Empty if there are none.
     std::vector<Course> of(const std::string& axis, Tick tick) const {

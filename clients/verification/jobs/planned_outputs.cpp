@@ -13,16 +13,16 @@ void PlannedOutputs::begin(const MachineConfig& machine, bool are_known) {
     }
 }
 
-void PlannedOutputs::take(const AxisRun& of, const Frame* frame, std::size_t axis,
+void PlannedOutputs::take(const AxisRun& of, const Frame* frame, MotorIndex motor,
                           const std::function<std::string()>& commanded) {
     const analysis::Run& run = of.run;
-    const OutputTrack* const track = frame != nullptr ? frame->outputs_of(axis) : nullptr;
+    const OutputTrack* const track = frame != nullptr ? frame->outputs_of(motor) : nullptr;
     if (track == nullptr || !on_outputs_ || !are_known_ || run.cut) { return; }
     OutputCheck::Planned planned{.incarnation = run.incarnation,
                                  .begin = run.start,
                                  .end = run.start + run.ticks(),
                                  .changes = {},
-                                 .ticks = run.tail ? total_ticks(frame->axes[axis].tail) : frame->ticks,
+                                 .ticks = run.tail ? total_ticks(frame->axes[motor].tail) : frame->ticks,
                                  .is_retimed = !run.commanded_ticks.empty(),
                                  .clock_error = run.clock_error,
                                  .commanded = commanded(),

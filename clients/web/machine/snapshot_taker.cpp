@@ -14,7 +14,7 @@ std::optional<MotorApart> motor_apart(const Session& session) {
         return {};
     }
     MotorCounts counts;
-    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+    for (const MotorIndex m : motor_indices(kinematics.motors().size())) {
         const auto& motor = session.received().motor(m);
         if (!motor || !motor->state.at_rest) { return {}; }
         counts.steps.append(motor->state.position.count());
@@ -26,14 +26,14 @@ std::optional<MotorApart> motor_apart(const Session& session) {
 }  // namespace
 
 void SnapshotTaker::note_healths() {
-    for (std::size_t i = 0; i < healths_.size(); ++i) {
+    for (const MotorIndex i : motor_indices(healths_.size())) {
         const auto& health = session_.received().health(i);
         if (!health || (healths_[i] && healths_[i]->value.tick == health->tick)) { continue; }
         healths_[i] = Seen<AxisHealth>{*health, monotonic_now()};
     }
 }
 
-AxisSnapshot SnapshotTaker::axis(std::size_t i) const {
+AxisSnapshot SnapshotTaker::axis(AxisIndex i) const {
     const auto own = session_.received().kinematics().own_motor(i);
     AxisSnapshot taken{.is_present = session_.received().axis_present(i),
                        .is_process = own.has_value(),
@@ -49,7 +49,7 @@ AxisSnapshot SnapshotTaker::axis(std::size_t i) const {
 std::vector<MotorSnapshot> SnapshotTaker::motors() const {
     const Kinematics& kinematics = session_.received().kinematics();
     std::vector<MotorSnapshot> taken;
-    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+    for (const MotorIndex m : motor_indices(kinematics.motors().size())) {
         const MotorConfig& config = kinematics.motors()[m];
         if (config.axis && kinematics.own_motor(*config.axis) == m) { continue; }
         MotorSnapshot motor{
@@ -73,7 +73,7 @@ Snapshot SnapshotTaker::take() const {
     snapshot.is_silent = session_.is_silent();
     snapshot.has_standby = session_.has_standby();
     snapshot.config_differs = session_.config_differs();
-    for (std::size_t i = 0; i < session_.config().axes.size(); ++i) { snapshot.axes.push_back(axis(i)); }
+    for (const AxisIndex i : axis_indices(session_.config().axes.size())) { snapshot.axes.push_back(axis(i)); }
     snapshot.motors = motors();
     snapshot.apart = motor_apart(session_);
     snapshot.values = session_.values().newest();

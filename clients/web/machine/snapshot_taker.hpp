@@ -21,7 +21,7 @@ public:
     Snapshot take() const;
 
 private:
-    AxisSnapshot axis(std::size_t axis) const;
+    AxisSnapshot axis(AxisIndex axis) const;
     std::vector<MotorSnapshot> motors() const;
 
     const Session& session_;

@@ -23,11 +23,11 @@ constexpr std::int64_t kMaxId = std::int64_t{1} << 53;
 
 using Read = std::optional<Order> (*)(const Json& body, const MachineConfig& machine, std::optional<Problem>& problem);
 
-std::optional<std::size_t> axis_of(const std::string& name, const std::string& place, const MachineConfig& machine,
-                                   BodyReader& reader) {
+std::optional<AxisIndex> axis_of(const std::string& name, const std::string& place, const MachineConfig& machine,
+                                 BodyReader& reader) {
     const auto found =
         std::ranges::find_if(machine.axes, [&](const AxisConfig& one) { return same_name(one.name, name); });
-    if (found != machine.axes.end()) { return static_cast<std::size_t>(found - machine.axes.begin()); }
+    if (found != machine.axes.end()) { return AxisIndex{static_cast<std::size_t>(found - machine.axes.begin())}; }
     const std::string known = fmt::format("one of the machine's axes: {}", fmt::join(machine.axis_names(), ", "));
     reader.refuse(wrong_value(422, place, name, known));
     return std::nullopt;
@@ -63,7 +63,7 @@ std::optional<Order> home(const Json& body, const MachineConfig& machine, std::o
             continue;
         }
         const auto axis = axis_of((*axes)[i].get<std::string>(), place, machine, reader);
-        if (axis) { command.axes |= AxisSet{1} << *axis; }
+        if (axis) { command.axes.insert(*axis); }
     }
     reader.finish();
     return command;
@@ -84,8 +84,8 @@ void read_jog(const Json& json, std::size_t i, const MachineConfig& machine, Jog
     reader.require("axis");
     reader.require("velocity");
     const auto name = reader.text("axis", 64);
-    const std::size_t none = machine.axes.size();
-    const std::size_t axis = name ? axis_of(*name, reader.place_of("axis"), machine, reader).value_or(none) : none;
+    const AxisIndex none{machine.axes.size()};
+    const AxisIndex axis = name ? axis_of(*name, reader.place_of("axis"), machine, reader).value_or(none) : none;
     const double most = axis < none ? machine.axes[axis].max_velocity_mm_s : kMostPlace;
     const auto velocity = reader.number("velocity", -most, most);
     const auto distance = reader.number("distance", std::numeric_limits<double>::min(), kMostPlace);
@@ -100,7 +100,7 @@ void read_jog(const Json& json, std::size_t i, const MachineConfig& machine, Jog
     if (std::ranges::any_of(order.jogs, is_same)) {
         reader.refuse(wrong_value(422, reader.place_of("axis"), *name, "an axis that the list has only once"));
     }
-    order.jogs.push_back({static_cast<std::uint32_t>(axis), *velocity, distance});
+    order.jogs.push_back({axis, *velocity, distance});
 }
 
 std::optional<Order> jog(const Json& body, const MachineConfig& machine, std::optional<Problem>& problem) {

@@ -33,7 +33,7 @@ json axis_json(const AxisConfig& axis) {
 json motors_json(const MachineConfig& machine) {
     const Kinematics kinematics(machine);
     json motors = json::array();
-    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+    for (const MotorIndex m : motor_indices(kinematics.motors().size())) {
         const MotorConfig& motor = kinematics.motors()[m];
         if (motor.is_board() || kinematics.own_motor(*motor.axis) == m) { continue; }
         motors.push_back({{"name", motor.name},

@@ -7,8 +7,8 @@
 
 namespace lockstep {
 
-PositionScale scale_of(const MachineConfig& machine, std::size_t axis) {
-    const MotorConfig config = motors_of(machine)[axis];
+PositionScale scale_of(const MachineConfig& machine, MotorIndex motor) {
+    const MotorConfig config = motors_of(machine)[motor];
     return {machine.name,
             config.name,
             config.steps_per_mm,

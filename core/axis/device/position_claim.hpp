@@ -30,7 +30,7 @@ struct PositionScale {
     bool operator==(const PositionScale&) const = default;
 };
 
-PositionScale scale_of(const MachineConfig& machine, std::size_t axis);
+PositionScale scale_of(const MachineConfig& machine, MotorIndex motor);
 
 /// A homed axis at rest. Counts are the device's.
 struct KeptPosition {

@@ -13,17 +13,17 @@ namespace {
 std::size_t room_for(const AxisTrack& track) { return ring_entries(track) + kDevicePieces; }
 
 /// The first of these inputs that the axis's device has and that touches. `closed`: the device's closed inputs.
-std::optional<std::uint8_t> touching(const TouchInputs& touch, std::size_t axis, std::uint32_t closed) {
+std::optional<std::uint8_t> touching(const TouchInputs& touch, MotorIndex motor, std::uint32_t closed) {
     for (const TouchInput& input : touch.any_of) {
-        if (input.motor == axis && touch.is_touched(input, closed)) { return input.channel; }
+        if (input.motor == motor && touch.is_touched(input, closed)) { return input.channel; }
     }
     return std::nullopt;
 }
 
 /// Whether the change of an input of the axis's device is a touch of one of these.
-bool is_touch(const TouchInputs& touch, std::size_t axis, const InputEdge& edge) {
+bool is_touch(const TouchInputs& touch, MotorIndex motor, const InputEdge& edge) {
     const bool is_awaited = std::ranges::any_of(
-        touch.any_of, [&](const TouchInput& input) { return input.motor == axis && input.channel == edge.channel; });
+        touch.any_of, [&](const TouchInput& input) { return input.motor == motor && input.channel == edge.channel; });
     return is_awaited && edge.closed != touch.opens;
 }
 
@@ -47,12 +47,12 @@ void EpochFollowing::take(const Frame& frame, std::optional<Position> rest, Axis
     if (!is_open() || follower_.held() == held) { return; }
     last_refusal_ = FaultCode::None;
     if (held == 0) { loop.begin_run(Trigger::None, false); }
-    lockstep::check(loop.device.reserve(room_for(frame.axes[axis_])), "there is room for the frame");
+    lockstep::check(loop.device.reserve(room_for(frame.axes[motor_])), "there is room for the frame");
     loop.load(check_found(follower_.find(follower_.held()), "the follower keeps the newest frame it holds"));
 }
 
 bool EpochFollowing::has_room(const Frame& frame, const DeviceView& device) const {
-    return axis_ >= frame.axes.size() || room_for(frame.axes[axis_]) <= device.free_segments();
+    return motor_ >= frame.axes.size() || room_for(frame.axes[motor_]) <= device.free_segments();
 }
 
 /// If the input touches already, the epoch ends before it moves.
@@ -62,14 +62,14 @@ void EpochFollowing::begin(Epoch epoch, AxisLoop& loop) {
     touch_.reset();
     loop.notice({AxisNotice::Kind::EpochBegun, FaultCode::None, epoch});
     const DeviceStatus& device = loop.device.status();
-    if (const auto channel = touching(follower_.touch(), axis_, device.inputs)) { end_at(device.now, *channel, loop); }
+    if (const auto channel = touching(follower_.touch(), motor_, device.inputs)) { end_at(device.now, *channel, loop); }
 }
 
 /// An input follows its pin with a delay, so a touch may become known when the axis rests already.
 void EpochFollowing::take(std::span<const InputEdge> edges, AxisLoop& loop) {
     for (const InputEdge& edge : edges) {
         if (!is_open() && edge.tick > rested_) { return; }
-        if (is_touch(follower_.touch(), axis_, edge)) { end_at(edge.tick, edge.channel, loop); }
+        if (is_touch(follower_.touch(), motor_, edge)) { end_at(edge.tick, edge.channel, loop); }
     }
 }
 

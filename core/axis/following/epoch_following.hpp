@@ -14,7 +14,7 @@ namespace lockstep {
 class EpochFollowing {
 public:
     /// `axis`: its place in the configuration.
-    EpochFollowing(std::size_t axis, const MachineConfig& machine) : axis_(axis), follower_(axis, machine) {}
+    EpochFollowing(MotorIndex motor, const MachineConfig& machine) : motor_(motor), follower_(motor, machine) {}
 
     /// An epoch is in progress on this axis.
     bool is_open() const { return follower_.open(); }
@@ -54,7 +54,7 @@ private:
     void refuse(const Frame& frame, FaultCode why, AxisLoop& loop);
     void end_at(Tick touch, std::uint8_t channel, AxisLoop& loop);
 
-    std::size_t axis_;
+    MotorIndex motor_;
     SetpointFollower follower_;
     RunRecorder recorder_;
     std::optional<EpochTouch> touch_;

@@ -19,7 +19,7 @@ bool is_in_order(const auto& changes, Ticks length) {
 
 }  // namespace
 
-OutputCheck::OutputCheck(std::size_t motor, const MachineConfig& machine) : room_(output_room(machine.timing)) {
+OutputCheck::OutputCheck(MotorIndex motor, const MachineConfig& machine) : room_(output_room(machine.timing)) {
     for (const OutputConfig& output : outputs_of(machine.outputs, motor_name(machine, motor))) {
         (output.is_analog() ? analog_ : output.makes_pulses() ? pulses_ : digital_) |= output.bit();
     }

@@ -13,7 +13,7 @@ namespace lockstep {
 
 class OutputCheck {
 public:
-    OutputCheck(std::size_t motor, const MachineConfig& machine);
+    OutputCheck(MotorIndex motor, const MachineConfig& machine);
 
     /// Returns OutputsImpossible if a change is not of an output of this motor's device, is out of order or outside its
     /// body or tail, or has an impossible value, or if there are more than a frame has room for.

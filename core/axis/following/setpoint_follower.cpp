@@ -16,17 +16,17 @@ Position start_from(Position asked, Position rest) {
 
 }  // namespace
 
-SetpointFollower::SetpointFollower(std::size_t axis, const MachineConfig& machine)
-    : axis_(axis),
+SetpointFollower::SetpointFollower(MotorIndex motor, const MachineConfig& machine)
+    : motor_(motor),
       axes_(motor_count(machine)),
       timing_(machine.timing),
       slot_(machine.slot_ticks()),
-      limits_(frame_limits_of(machine, axis)),
-      outputs_(axis, machine),
+      limits_(frame_limits_of(machine, motor)),
+      outputs_(motor, machine),
       peers_(motor_count(machine)) {}
 
 void SetpointFollower::receive(const AxisState& peer) {
-    if (peer.axis >= axes_ || peer.axis == axis_) { return; }
+    if (peer.axis >= axes_ || peer.axis == motor_) { return; }
     peers_[peer.axis].receive(peer.stamp, peer.epoch, peer.held);
     if (open_ && peer.epoch == epoch_) { add_veto(peer.veto); }
 }
@@ -40,7 +40,7 @@ void SetpointFollower::receive(const MachineState& coordinator) {
 
 FaultCode SetpointFollower::offer(const Frame& frame, std::optional<Position> rest) {
     if (frame.axes.size() != axes_) { return FaultCode::ConfigMismatch; }
-    const AxisTrack& track = frame.axes[axis_];
+    const AxisTrack& track = frame.axes[motor_];
     const bool first = !open_ && rest && frame.epoch > epoch_ && frame.epoch == named_ && frame.number == 1;
     const bool has_room = frames_.size() < kMaxFramesKept;
     const bool next = open_ && frame.epoch == epoch_ && frame.number == held_ + 1 && !last_held_ && has_room;
@@ -51,7 +51,7 @@ FaultCode SetpointFollower::offer(const Frame& frame, std::optional<Position> re
     MotionPoint end = first ? MotionPoint{start_from(track.from, *rest), 0, {}} : end_;
     const FaultCode fault = check_track(track, frame.ticks, frame.last, limits_, end);
     if (fault != FaultCode::None) { return fault; }
-    const OutputTrack* const outputs = frame.outputs_of(axis_);
+    const OutputTrack* const outputs = frame.outputs_of(motor_);
     if (outputs != nullptr) {
         const FaultCode why = outputs_.check(*outputs, frame.ticks, total_ticks(track.tail));
         if (why != FaultCode::None) { return why; }
@@ -86,10 +86,10 @@ std::optional<Slot> SetpointFollower::start_slot(FrameNumber k) const {
 }
 
 /// Returns the other axes without evidence that they hold the frame.
-AxisSet SetpointFollower::lacking(FrameNumber k, Slot start) const {
-    AxisSet lacking = 0;
-    for (std::size_t i = 0; i < axes_; ++i) {
-        if (i != axis_ && !peers_[i].holds(epoch_, k, start, timing_)) { lacking |= axis_bit(i); }
+MotorSet SetpointFollower::lacking(FrameNumber k, Slot start) const {
+    MotorSet lacking;
+    for (const MotorIndex m : motor_indices(axes_)) {
+        if (m != motor_ && !peers_[m].holds(epoch_, k, start, timing_)) { lacking.insert(m); }
     }
     return lacking;
 }
@@ -112,7 +112,7 @@ const std::vector<DeviceOrder>& SetpointFollower::decide(Slot now, bool publishe
         const rules::CheckTime time = rules::check_time(now, *start, timing_);
         const bool too_late = time == rules::CheckTime::TooLate;
         const FailedCheck check{too_late, held_ >= k, lacking(k, *start), !coordinator_holds(k, *start)};
-        const bool all_hold = check.lacking == 0 && !check.no_coordinator;
+        const bool all_hold = check.lacking.empty() && !check.no_coordinator;
         if (!too_late && rules::may_arm(k, {held_, veto_, all_hold})) {
             orders_.emplace_back(device::Arm{k});
         } else if (time == rules::CheckTime::Early || !publishes) {

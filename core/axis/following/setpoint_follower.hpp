@@ -19,7 +19,7 @@ namespace lockstep {
 class SetpointFollower {
 public:
     /// `axis` of `axes`, by their places in the configuration.
-    SetpointFollower(std::size_t axis, const MachineConfig& machine);
+    SetpointFollower(MotorIndex motor, const MachineConfig& machine);
 
     /// Takes evidence and a veto from another process. States of other epochs are evidence of nothing.
     void receive(const AxisState& peer);
@@ -63,7 +63,7 @@ public:
 
 private:
     void begin(Epoch epoch);
-    AxisSet lacking(FrameNumber k, Slot start) const;
+    MotorSet lacking(FrameNumber k, Slot start) const;
     bool coordinator_holds(FrameNumber k, Slot start) const;
     template <typename MayVeto>
     FrameNumber first_open(MayVeto&& may_veto) const;
@@ -72,7 +72,7 @@ private:
     std::optional<Slot> start_slot(FrameNumber k) const;
     void add_veto(std::optional<FrameNumber> veto) { veto_ = rules::merge(veto_, veto); }
 
-    std::size_t axis_;
+    MotorIndex motor_;
     std::size_t axes_;
     ProtocolTiming timing_;
     Ticks slot_;

@@ -50,8 +50,8 @@ void end_order(AxisLoop& loop) {
 
 }  // namespace
 
-OwnMoves::OwnMoves(std::size_t axis, const MachineConfig& machine, BeginSteps begin_steps)
-    : motor_(motors_of(machine)[axis]),
+OwnMoves::OwnMoves(MotorIndex motor, const MachineConfig& machine, BeginSteps begin_steps)
+    : motor_(motors_of(machine)[motor]),
       limits_(limits_of(motor_, machine.tick_ns)),
       tick_ns_(machine.tick_ns),
       slot_(machine.slot_ticks()),

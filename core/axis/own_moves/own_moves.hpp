@@ -15,7 +15,7 @@ namespace lockstep {
 class OwnMoves {
 public:
     /// `axis`: its place in the configuration. `begin_steps`: its step methods.
-    OwnMoves(std::size_t axis, const MachineConfig& machine, BeginSteps begin_steps);
+    OwnMoves(MotorIndex motor, const MachineConfig& machine, BeginSteps begin_steps);
 
     bool is_running() const { return run_.has_value(); }
 

@@ -50,7 +50,7 @@ struct ExecutedTrack {
 struct FailedCheck {
     bool too_late = false;        // the check came too late
     bool held = false;            // this axis holds the frame
-    AxisSet lacking = 0;          // axes without a fresh state that reports the frame as held
+    MotorSet lacking;             // those without a fresh state that reports the frame as held
     bool no_coordinator = false;  // there is no evidence from the coordinator
 };
 

@@ -6,7 +6,7 @@
 
 namespace lockstep {
 
-AxisPosition::AxisPosition(const MachineConfig& machine, std::size_t motor, KeptOrNot kept)
+AxisPosition::AxisPosition(const MachineConfig& machine, MotorIndex motor, KeptOrNot kept)
     : scale_(scale_of(machine, motor)), kept_(std::move(kept)), play_(motors_of(machine)[motor].backlash) {
     const MotorConfig config = motors_of(machine)[motor];
     is_board_ = config.is_board();

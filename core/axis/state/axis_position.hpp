@@ -18,7 +18,7 @@ namespace lockstep {
 class AxisPosition {
 public:
     /// `kept`: the position that the previous process kept. A board always rests at 0, so its place is always known.
-    AxisPosition(const MachineConfig& machine, std::size_t motor, KeptOrNot kept);
+    AxisPosition(const MachineConfig& machine, MotorIndex motor, KeptOrNot kept);
 
     bool is_board() const { return is_board_; }
     bool homed() const { return homed_; }

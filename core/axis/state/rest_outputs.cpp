@@ -5,7 +5,7 @@
 
 namespace lockstep {
 
-RestOutputs::RestOutputs(std::size_t motor, const MachineConfig& machine)
+RestOutputs::RestOutputs(MotorIndex motor, const MachineConfig& machine)
     : outputs_(outputs_of(machine.outputs, motor_name(machine, motor))) {
     std::erase_if(outputs_, &OutputConfig::makes_pulses);  // they are made only while it follows frames
 }

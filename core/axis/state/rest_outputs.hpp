@@ -12,7 +12,7 @@ namespace lockstep {
 
 class RestOutputs {
 public:
-    RestOutputs(std::size_t motor, const MachineConfig& machine);
+    RestOutputs(MotorIndex motor, const MachineConfig& machine);
 
     bool none() const { return outputs_.empty(); }
     /// Takes the newest state of the owner.

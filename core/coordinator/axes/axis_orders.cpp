@@ -4,41 +4,41 @@
 
 namespace lockstep {
 
-AxisCommand& AxisOrders::give(std::size_t axis, AxisCommandKind kind, const Term& term) {
-    return orders_[axis].emplace(AxisCommand{term, ++sequence_, static_cast<std::uint32_t>(axis), kind});
+AxisCommand& AxisOrders::give(MotorIndex motor, AxisCommandKind kind, const Term& term) {
+    return orders_[motor].emplace(AxisCommand{term, ++sequence_, static_cast<std::uint32_t>(motor), kind});
 }
 
-void AxisOrders::withdraw(std::size_t axis, const AxisRoster& axes) {
-    if (!is_open(axis, AxisCommandKind::Reset, axes)) { orders_[axis].reset(); }
+void AxisOrders::withdraw(MotorIndex motor, const AxisRoster& axes) {
+    if (!is_open(motor, AxisCommandKind::Reset, axes)) { orders_[motor].reset(); }
 }
 
 void AxisOrders::withdraw_all() { std::ranges::fill(orders_, std::nullopt); }
 
-bool AxisOrders::is_done(std::size_t axis, const AxisRoster& axes) const {
-    if (!orders_[axis]) { return true; }
-    const auto& state = axes.state(axis);
-    return state && state->term == orders_[axis]->term && state->command_done >= orders_[axis]->sequence;
+bool AxisOrders::is_done(MotorIndex motor, const AxisRoster& axes) const {
+    if (!orders_[motor]) { return true; }
+    const auto& state = axes.state(motor);
+    return state && state->term == orders_[motor]->term && state->command_done >= orders_[motor]->sequence;
 }
 
 bool AxisOrders::all_done(const AxisRoster& axes) const {
-    for (std::size_t i = 0; i < orders_.size(); ++i) {
-        if (!is_done(i, axes)) { return false; }
+    for (const MotorIndex m : motor_indices(orders_.size())) {
+        if (!is_done(m, axes)) { return false; }
     }
     return true;
 }
 
-bool AxisOrders::is_open(std::size_t axis, AxisCommandKind kind, const AxisRoster& axes) const {
-    return !is_done(axis, axes) && orders_[axis]->kind == kind;
+bool AxisOrders::is_open(MotorIndex motor, AxisCommandKind kind, const AxisRoster& axes) const {
+    return !is_done(motor, axes) && orders_[motor]->kind == kind;
 }
 
-void AxisOrders::renew(std::size_t axis, Tick until, std::vector<AxisCommand>& out) {
-    orders_[axis]->until = until;
-    out.push_back(*orders_[axis]);
+void AxisOrders::renew(MotorIndex motor, Tick until, std::vector<AxisCommand>& out) {
+    orders_[motor]->until = until;
+    out.push_back(*orders_[motor]);
 }
 
 void AxisOrders::repeat(const AxisRoster& axes, std::vector<AxisCommand>& out) const {
-    for (std::size_t i = 0; i < orders_.size(); ++i) {
-        if (!is_done(i, axes)) { out.push_back(*orders_[i]); }
+    for (const MotorIndex m : motor_indices(orders_.size())) {
+        if (!is_done(m, axes)) { out.push_back(*orders_[m]); }
     }
 }
 

@@ -13,24 +13,24 @@ public:
     explicit AxisOrders(std::size_t axes) : orders_(axes) {}
 
     /// Replaces the last order, even if it is open. Returns the new order, so that the caller can set its parameters.
-    AxisCommand& give(std::size_t axis, AxisCommandKind kind, const Term& term);
+    AxisCommand& give(MotorIndex motor, AxisCommandKind kind, const Term& term);
     /// Call it when the axis's process is gone, because the next one must not carry out its orders. Only an open reset
     /// remains, because it moves nothing and the operator was told that it is accepted.
-    void withdraw(std::size_t axis, const AxisRoster& axes);
+    void withdraw(MotorIndex motor, const AxisRoster& axes);
     void withdraw_all();
     /// A new owner numbers its orders from the beginning.
     void restart() { sequence_ = 0; }
 
     /// Also true if no order was given. An axis numbers the orders of the owner that it follows, so a state of another
     /// term is no answer to this owner.
-    bool is_done(std::size_t axis, const AxisRoster& axes) const;
+    bool is_done(MotorIndex motor, const AxisRoster& axes) const;
     bool all_done(const AxisRoster& axes) const;
     /// An order of this kind is open.
-    bool is_open(std::size_t axis, AxisCommandKind kind, const AxisRoster& axes) const;
-    /// The newest order to the axis, done or not.
-    const std::optional<AxisCommand>& newest(std::size_t axis) const { return orders_[axis]; }
+    bool is_open(MotorIndex motor, AxisCommandKind kind, const AxisRoster& axes) const;
+    /// The newest order to the motor, done or not.
+    const std::optional<AxisCommand>& newest(MotorIndex motor) const { return orders_[motor]; }
     /// Prolongs the newest order to the axis and sends it at once.
-    void renew(std::size_t axis, Tick until, std::vector<AxisCommand>& out);
+    void renew(MotorIndex motor, Tick until, std::vector<AxisCommand>& out);
     void repeat(const AxisRoster& axes, std::vector<AxisCommand>& out) const;
 
     /// Call it when the axis has carried out an order that was not given here. The axis takes no order with a lower

@@ -9,9 +9,10 @@ namespace lockstep {
 namespace {
 
 template <typename Predicate>
-std::optional<std::size_t> first_axis(std::span<const AxisView> views, Predicate&& holds) {
+std::optional<MotorIndex> first_motor(std::span<const AxisView> views, Predicate&& holds) {
     const auto found = std::ranges::find_if(views, holds);
-    return found == views.end() ? std::nullopt : std::optional<std::size_t>(found - views.begin());
+    return found == views.end() ? std::nullopt
+                                : std::optional(MotorIndex{static_cast<std::size_t>(found - views.begin())});
 }
 
 }  // namespace
@@ -26,7 +27,7 @@ AxisRoster::Arrival AxisRoster::arrival_of(const AxisState& state, Slot now) {
     // A process that was started beside the known one gives up by itself; the known one may stall meanwhile.
     const bool is_known_heard = now - view.received <= timing_.stall_slots;
     const bool is_older = state.stamp <= view.state->stamp;  // of an earlier process, sent again
-    if (is_known_heard || (is_older && is_present(state.axis, now))) { return Arrival::Ignored; }
+    if (is_known_heard || (is_older && is_present(state.motor(), now))) { return Arrival::Ignored; }
     return view.unconfirmed.again(state.identity, state.stamp) ? Arrival::Replaced : Arrival::Ignored;
 }
 
@@ -56,29 +57,30 @@ void AxisRoster::forget_missing(Slot now) {
     }
 }
 
-std::optional<std::size_t> AxisRoster::missing(Slot now) const {
-    return first_axis(views_, [&](const AxisView& view) { return !view.present(now, timing_); });
+std::optional<MotorIndex> AxisRoster::missing(Slot now) const {
+    return first_motor(views_, [&](const AxisView& view) { return !view.present(now, timing_); });
 }
 
-std::optional<std::size_t> AxisRoster::without_device() const {
-    return first_axis(
+std::optional<MotorIndex> AxisRoster::without_device() const {
+    return first_motor(
         views_, [](const AxisView& view) { return view.state && view.state->unproved == FaultCode::DeviceMissing; });
 }
 
-std::optional<std::size_t> AxisRoster::not_homed() const {
-    return first_axis(views_, [](const AxisView& view) { return view.state && !view.state->homed; });
+std::optional<MotorIndex> AxisRoster::not_homed() const {
+    return first_motor(views_, [](const AxisView& view) { return view.state && !view.state->homed; });
 }
 
-bool AxisRoster::is_uncertain(std::size_t axis, Ticks limit) const {
-    return views_[axis].state && views_[axis].state->clock_error > limit;
+bool AxisRoster::is_uncertain(MotorIndex motor, Ticks limit) const {
+    return views_[motor].state && views_[motor].state->clock_error > limit;
 }
 
-std::optional<std::size_t> AxisRoster::uncertain(Ticks limit) const {
-    return first_axis(views_, [&](const AxisView& view) { return view.state && view.state->clock_error > limit; });
+std::optional<MotorIndex> AxisRoster::uncertain(Ticks limit) const {
+    return first_motor(views_, [&](const AxisView& view) { return view.state && view.state->clock_error > limit; });
 }
 
-std::optional<std::size_t> AxisRoster::moving(Slot now) const {
-    return first_axis(views_, [&](const AxisView& view) { return view.present(now, timing_) && !view.state->at_rest; });
+std::optional<MotorIndex> AxisRoster::moving(Slot now) const {
+    return first_motor(views_,
+                       [&](const AxisView& view) { return view.present(now, timing_) && !view.state->at_rest; });
 }
 
 bool AxisRoster::all_rest() const {
@@ -87,7 +89,7 @@ bool AxisRoster::all_rest() const {
 
 std::optional<std::size_t> AxisRoster::closed_input(InputUse use) const {
     return inputs_.closed(use,
-                          [this](std::size_t motor) { return views_[motor].state ? views_[motor].state->inputs : 0; });
+                          [this](MotorIndex motor) { return views_[motor].state ? views_[motor].state->inputs : 0; });
 }
 
 std::optional<bool> AxisRoster::is_closed(std::size_t input, Slot since) const {
@@ -96,15 +98,17 @@ std::optional<bool> AxisRoster::is_closed(std::size_t input, Slot since) const {
     return inputs_.is_closed(input, [&](std::size_t) { return state->inputs; });
 }
 
-std::optional<std::size_t> AxisRoster::stopped_by_input() const {
+std::optional<MotorIndex> AxisRoster::stopped_by_input() const {
     if (const auto input = closed_input(InputUse::EmergencyStop)) { return inputs_.motor(*input); }
-    return first_axis(
+    return first_motor(
         views_, [](const AxisView& view) { return view.state && view.state->fault == FaultCode::EmergencyStopInput; });
 }
 
-AxisSet AxisRoster::present(Slot now) const {
-    AxisSet present = 0;
-    for (std::size_t i = 0; i < views_.size(); ++i) { present |= is_present(i, now) ? axis_bit(i) : 0; }
+MotorSet AxisRoster::present(Slot now) const {
+    MotorSet present;
+    for (const MotorIndex m : motor_indices(views_.size())) {
+        if (is_present(m, now)) { present.insert(m); }
+    }
     return present;
 }
 

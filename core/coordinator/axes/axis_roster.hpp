@@ -38,19 +38,19 @@ public:
     std::size_t size() const { return views_.size(); }
     std::span<const AxisView> views() const { return views_; }
     /// Empty if the axis was never received or is gone.
-    const std::optional<AxisState>& state(std::size_t axis) const { return views_[axis].state; }
-    bool is_present(std::size_t axis, Slot now) const { return views_[axis].present(now, timing_); }
-    void forget(std::size_t axis) { views_[axis].state.reset(); }
+    const std::optional<AxisState>& state(MotorIndex motor) const { return views_[motor].state; }
+    bool is_present(MotorIndex motor, Slot now) const { return views_[motor].present(now, timing_); }
+    void forget(MotorIndex motor) { views_[motor].state.reset(); }
     void forget_missing(Slot now);
 
-    std::optional<std::size_t> missing(Slot now) const;
-    std::optional<std::size_t> without_device() const;
-    std::optional<std::size_t> not_homed() const;
+    std::optional<MotorIndex> missing(Slot now) const;
+    std::optional<MotorIndex> without_device() const;
+    std::optional<MotorIndex> not_homed() const;
     /// The axis's clock error may exceed this limit.
-    bool is_uncertain(std::size_t axis, Ticks limit) const;
-    std::optional<std::size_t> uncertain(Ticks limit) const;
+    bool is_uncertain(MotorIndex motor, Ticks limit) const;
+    std::optional<MotorIndex> uncertain(Ticks limit) const;
     /// Returns an axis that is present and not at rest; nullopt if there is none.
-    std::optional<std::size_t> moving(Slot now) const;
+    std::optional<MotorIndex> moving(Slot now) const;
     bool all_rest() const;
     /// The first of the machine's inputs with this use that is closed; nullopt if there is none.
     std::optional<std::size_t> closed_input(InputUse use) const;
@@ -59,8 +59,8 @@ public:
     std::optional<bool> is_closed(std::size_t input, Slot since = 0) const;
     /// A motor whose emergency stop input is closed, or that was stopped by it and not reset yet; nullopt: there is
     /// none.
-    std::optional<std::size_t> stopped_by_input() const;
-    AxisSet present(Slot now) const;
+    std::optional<MotorIndex> stopped_by_input() const;
+    MotorSet present(Slot now) const;
     /// Positions of the slides in whole steps; 0 for a motor that is not known.
     MotorCounts counts() const;
 

@@ -18,7 +18,7 @@ struct EpochEnd {
         Misplaced,     // an axis is not where its frames end
     };
     Kind kind = Kind::Complete;
-    std::size_t axis = 0;  // Misplaced, FramesDiffer: the axis concerned
+    MotorIndex motor;  // Misplaced, FramesDiffer: the one concerned
     FrameNumber ran = 0;
     PathPlace place;           // on the program
     MotorPositions positions;  // the exact ones

@@ -133,26 +133,26 @@ std::optional<EpochEnd> EpochRunner::evaluate(Slot now, std::span<const AxisView
     const Slot first_start = rules::slot_of(*made_.start(), slot_);
     std::optional<FrameNumber> ran;
     EpochEnd end;
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-        if (!axes[i].present(now, timing_)) { continue; }
-        const AxisState& state = *axes[i].state;
+    for (const MotorIndex m : motor_indices(axes.size())) {
+        if (!axes[m].present(now, timing_)) { continue; }
+        const AxisState& state = *axes[m].state;
         const bool took_part = state.epoch == epoch_;
         const bool settled = state.at_rest && (took_part || state.stamp > first_start + rules::kHopSlots);
         if (!settled) { return std::nullopt; }
         const FrameNumber its = took_part ? state.ran : 0;
         if (ran && *ran != its) {
             end.kind = EpochEnd::Kind::FramesDiffer;
-            end.axis = i;
+            end.motor = m;
         }
         ran = ran ? std::max(*ran, its) : its;
     }
     if (!ran || !made_.keeps(*ran)) { end.kind = EpochEnd::Kind::FramesDiffer; }
     if (end.kind == EpochEnd::Kind::FramesDiffer) { return end; }
     end = made_.end_behind(*ran);
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-        if (axes[i].present(now, timing_) && axes[i].state->position != end.positions[i] && *ran > 0) {
+    for (const MotorIndex m : motor_indices(axes.size())) {
+        if (axes[m].present(now, timing_) && axes[m].state->position != end.positions[m] && *ran > 0) {
             end.kind = EpochEnd::Kind::Misplaced;
-            end.axis = i;
+            end.motor = m;
         }
     }
     return end;

@@ -3,12 +3,13 @@
 namespace lockstep {
 
 AxisSet HomingSequence::next_group(const MachineConfig& machine) {
-    AxisSet group = 0;
+    AxisSet group;
     int lowest = sequence_;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axes_) {
         const int sequence = machine.axes[i].homing.sequence;
-        if (!has_axis(axes_, i) || sequence <= sequence_ || (group != 0 && sequence > lowest)) { continue; }
-        group = group != 0 && sequence == lowest ? group | axis_bit(i) : axis_bit(i);
+        if (sequence <= sequence_ || (!group.empty() && sequence > lowest)) { continue; }
+        if (sequence < lowest) { group = {}; }
+        group.insert(i);
         lowest = sequence;
     }
     sequence_ = lowest;

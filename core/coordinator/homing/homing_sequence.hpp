@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "core/axis_set.hpp"
+#include "core/indices.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep {
@@ -19,7 +19,7 @@ public:
     AxisSet next_group(const MachineConfig& machine);
 
 private:
-    AxisSet axes_ = 0;
+    AxisSet axes_;
     int sequence_ = std::numeric_limits<int>::min();  // of the group in progress
 };
 

@@ -9,7 +9,7 @@ namespace lockstep {
 
 SkewWatch::SkewWatch(const MachineConfig& machine, const Kinematics& kinematics) {
     const std::vector<MotorConfig>& motors = kinematics.motors();
-    for (std::size_t m = 0; m < motors.size(); ++m) {
+    for (const MotorIndex m : motor_indices(motors.size())) {
         const MotorConfig& motor = motors[m];
         if (!motor.moves_one_axis) { continue; }
         const AxisConfig& axis = machine.axes[*motor.axis];
@@ -26,7 +26,7 @@ SkewWatch::SkewWatch(const MachineConfig& machine, const Kinematics& kinematics)
 }
 
 void SkewWatch::begin(const AxisRoster& motors) {
-    for (std::size_t m = 0; m < motors_.size(); ++m) {
+    for (const MotorIndex m : motor_indices(motors_.size())) {
         Motor& motor = motors_[m];
         const auto& state = motors.state(m);
         motor.begin_mm.reset();
@@ -40,8 +40,8 @@ void SkewWatch::begin(const AxisRoster& motors) {
     }
 }
 
-std::optional<std::size_t> SkewWatch::look(const AxisRoster& motors) {
-    for (std::size_t m = 0; m < motors_.size(); ++m) {
+std::optional<MotorIndex> SkewWatch::look(const AxisRoster& motors) {
+    for (const MotorIndex m : motor_indices(motors_.size())) {
         Motor& motor = motors_[m];
         const auto& state = motors.state(m);
         if (!motor.most_mm || !state || (motor.newest && state->stamp == motor.newest->slot)) { continue; }
@@ -49,8 +49,8 @@ std::optional<std::size_t> SkewWatch::look(const AxisRoster& motors) {
         if (motor.newest && agrees(*motor.newest, reading, motor)) { take(*motor.newest, motor); }
         motor.newest = reading;
     }
-    for (std::size_t m = 1; m < motors_.size(); ++m) {
-        for (std::size_t other = 0; other < m; ++other) {
+    for (const MotorIndex m : motor_indices(motors_.size())) {
+        for (const MotorIndex other : motor_indices(m)) {
             if (are_apart(motors_[m], motors_[other])) { return m; }
         }
     }

@@ -12,8 +12,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/axis_set.hpp"
 #include "core/coordinator/axes/axis_roster.hpp"
+#include "core/indices.hpp"
 #include "core/kinematics/kinematics.hpp"
 #include "core/machine.hpp"
 
@@ -28,7 +28,7 @@ public:
     /// The motors begin to home. They stand where they are known to be.
     void begin(const AxisRoster& motors);
     /// Returns a motor that is further from another one of its axis than this may be; nullopt if there is none.
-    std::optional<std::size_t> look(const AxisRoster& motors);
+    std::optional<MotorIndex> look(const AxisRoster& motors);
 
 private:
     struct Reading {
@@ -41,7 +41,7 @@ private:
         double way_mm = 0;
     };
     struct Motor {
-        std::size_t axis = 0;
+        AxisIndex axis;
         double axis_mm_per_step = 0;
         double steps_per_slot = 0;            // at most
         std::optional<double> most_mm;        // the axis's max_skew_mm

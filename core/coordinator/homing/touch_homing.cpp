@@ -30,25 +30,24 @@ MotorConfig as_motor(const AxisConfig& axis, double overshoot_mm) {
 }
 
 TouchInput switch_at(const InputConfig& input, const MachineConfig& machine) {
-    return {static_cast<std::uint32_t>(motor_named(machine, input.motor).value()),
-            static_cast<std::uint8_t>(input.channel)};
+    return {motor_named(machine, input.motor).value(), static_cast<std::uint8_t>(input.channel)};
 }
 
 }  // namespace
 
 AxisSet axes_homed_by_touch(AxisSet axes, const MachineConfig& machine) {
-    AxisSet homed = 0;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        if (has_axis(axes, i) && row_of(machine.axes[i].homing.way).runs_programs) { homed |= axis_bit(i); }
+    AxisSet homed;
+    for (const AxisIndex i : axes) {
+        if (row_of(machine.axes[i].homing.way).runs_programs) { homed.insert(i); }
     }
     return homed;
 }
 
-AxisSet motors_homed_by_touch(AxisSet axes, const LoopView& loop) {
+MotorSet motors_homed_by_touch(AxisSet axes, const LoopView& loop) {
     return loop.kinematics.motors_of_axes(axes_homed_by_touch(axes, loop.machine));
 }
 
-TouchHoming::TouchHoming(std::size_t axis, const MachineConfig& machine)
+TouchHoming::TouchHoming(AxisIndex axis, const MachineConfig& machine)
     : axis_(axis),
       config_(machine.axes[axis]),
       input_(home_input_of(config_, machine)),

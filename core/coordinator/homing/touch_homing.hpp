@@ -16,14 +16,14 @@
 namespace lockstep {
 
 /// Names the motors of all axes that home by touch.
-AxisSet motors_homed_by_touch(AxisSet axes, const LoopView& loop);
+MotorSet motors_homed_by_touch(AxisSet axes, const LoopView& loop);
 AxisSet axes_homed_by_touch(AxisSet axes, const MachineConfig& machine);
 
 class TouchHoming {
 public:
-    TouchHoming(std::size_t axis, const MachineConfig& machine);
+    TouchHoming(AxisIndex axis, const MachineConfig& machine);
 
-    std::size_t axis() const { return axis_; }
+    AxisIndex axis() const { return axis_; }
     HomingStage stage() const { return homing_.stage(); }
 
     enum class Next : std::uint8_t {
@@ -50,7 +50,7 @@ private:
     bool take(const HomingStep& step);
     std::int64_t end_of_travel(bool upper) const;
 
-    std::size_t axis_;
+    AxisIndex axis_;
     AxisConfig config_;
     std::size_t input_;  // of the machine
     TouchInput switch_;

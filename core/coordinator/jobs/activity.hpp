@@ -20,11 +20,11 @@ namespace lockstep {
 /// The first fault since the last reset.
 struct MachineFault {
     FaultCode code = FaultCode::None;
-    std::size_t axis = 0;
+    MotorIndex motor;
 
     /// The axis of the fault, if it is of an axis.
     std::optional<std::uint32_t> faulty_axis() const {
-        return is_of_an_axis(code) ? std::optional(static_cast<std::uint32_t>(axis)) : std::nullopt;
+        return is_of_an_axis(code) ? std::optional(static_cast<std::uint32_t>(motor)) : std::nullopt;
     }
 };
 
@@ -65,8 +65,8 @@ struct Homing : Motion {
     MachineJob job;
     HomingSequence sequence;
     SkewWatch skew;
-    AxisSet approaching = 0;  // motors that wait for each other at their switches before they home
-    AxisSet by_touch = 0;     // axes of the group in progress that are still to home by touch
+    MotorSet approaching;  // those that wait for each other at their switches before they home
+    AxisSet by_touch;      // axes of the group in progress that are still to home by touch
     std::optional<TouchHoming> touch;
     bool has_assumed = false;  // all motors that were not homed assume places
     bool has_parked = false;   // all axes that home by touch, together

@@ -1,6 +1,5 @@
 #include "core/coordinator/jobs/homing_job.hpp"
 
-#include <bit>
 #include <utility>
 
 #include "core/check.hpp"
@@ -10,8 +9,6 @@
 namespace lockstep {
 namespace {
 
-std::size_t first_of(AxisSet set) { return static_cast<std::size_t>(std::countr_zero(set)); }
-
 bool is_of_homing(AxisCommandKind kind) {
     return kind == AxisCommandKind::Home || kind == AxisCommandKind::Approach || kind == AxisCommandKind::Assume ||
            kind == AxisCommandKind::TakePlace;
@@ -19,11 +16,11 @@ bool is_of_homing(AxisCommandKind kind) {
 
 /// Where axes are assumed to be when homing by touch begins: those without a switch at their parks, the others in the
 /// middle of their travels.
-AxisCounts first_places(AxisSet motors, const LoopView& loop) {
+AxisCounts first_places(MotorSet motors, const LoopView& loop) {
     AxisCounts places = loop.counts();
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (const AxisIndex i : axis_indices(places.size())) {
         const AxisConfig& axis = loop.machine.axes[i];
-        if ((loop.kinematics.motors_of_axes(axis_bit(i)) & motors) == 0) { continue; }
+        if ((loop.kinematics.motors_of_axes({i}) & motors).empty()) { continue; }
         const double middle_mm = (axis.position_min_mm + axis.position_max_mm) / 2;
         places[i] = to_steps(axis, row_of(axis.homing.way).searches ? middle_mm : axis.homing.park_mm);
     }
@@ -31,13 +28,13 @@ AxisCounts first_places(AxisSet motors, const LoopView& loop) {
 }
 
 /// All motors of axes that have one that is not homed. The others may be at places that do not agree with it.
-AxisSet motors_without_places(const LoopView& loop) {
-    AxisSet motors = 0;
-    for (std::size_t i = 0; i < loop.machine.axes.size(); ++i) {
-        const AxisSet of_axis = loop.kinematics.motors_of_axes(axis_bit(i));
-        for (std::size_t m = 0; m < loop.axes.size(); ++m) {
+MotorSet motors_without_places(const LoopView& loop) {
+    MotorSet motors;
+    for (const AxisIndex i : axis_indices(loop.machine.axes.size())) {
+        const MotorSet of_axis = loop.kinematics.motors_of_axes({i});
+        for (const MotorIndex m : of_axis) {
             const auto& state = loop.axes.state(m);
-            if (has_axis(of_axis, m) && state && !state->homed) { motors |= of_axis; }
+            if (state && !state->homed) { motors |= of_axis; }
         }
     }
     return motors;
@@ -45,20 +42,16 @@ AxisSet motors_without_places(const LoopView& loop) {
 
 /// Every motor takes part in each frame, so all that are not homed assume places.
 void assume_places(const activity::Homing& homing, CoordinatorLoop& loop) {
-    const AxisSet motors = motors_homed_by_touch(homing.sequence.axes(), loop) | motors_without_places(loop);
+    const MotorSet motors = motors_homed_by_touch(homing.sequence.axes(), loop) | motors_without_places(loop);
     const MotorCounts places = loop.kinematics.motors_at(first_places(motors, loop));
-    for (std::size_t m = 0; m < loop.axes.size(); ++m) {
-        if (has_axis(motors, m)) { loop.order(m, AxisCommandKind::Assume).target_steps = places[m]; }
-    }
+    for (const MotorIndex m : motors) { loop.order(m, AxisCommandKind::Assume).target_steps = places[m]; }
 }
 
 /// Moves the assumed place of one axis. Each motor rests on a whole step, and keeps by how much it differs from the
 /// place of the other axes.
-void assume_place(std::size_t axis, std::int64_t place, CoordinatorLoop& loop) {
+void assume_place(AxisIndex axis, std::int64_t place, CoordinatorLoop& loop) {
     const AxisCounts here = loop.counts();
-    const AxisSet motors = loop.kinematics.motors_of_axes(axis_bit(axis));
-    for (std::size_t m = 0; m < loop.axes.size(); ++m) {
-        if (!has_axis(motors, m)) { continue; }
+    for (const MotorIndex m : loop.kinematics.motors_of_axes({axis})) {
         const std::int64_t shift =
             loop.kinematics.motor_at(m, here, axis, place) - loop.kinematics.motor_at(m, here, axis, here[axis]);
         const std::int64_t count = loop.axes.state(m)->position.count();
@@ -68,9 +61,7 @@ void assume_place(std::size_t axis, std::int64_t place, CoordinatorLoop& loop) {
 
 /// The axes are truly where their motors assume to be.
 void take_places(const activity::Homing& homing, CoordinatorLoop& loop) {
-    const AxisSet motors = motors_homed_by_touch(homing.sequence.axes(), loop);
-    for (std::size_t m = 0; m < loop.axes.size(); ++m) {
-        if (!has_axis(motors, m)) { continue; }
+    for (const MotorIndex m : motors_homed_by_touch(homing.sequence.axes(), loop)) {
         const std::int64_t count = loop.axes.state(m)->position.count();
         loop.order(m, AxisCommandKind::TakePlace).target_steps = count;
     }
@@ -79,13 +70,13 @@ void take_places(const activity::Homing& homing, CoordinatorLoop& loop) {
 /// An axis that has homed parks to the nearest step. Its motors rest on whole steps, so this makes the parks of all
 /// axes exact.
 Program way_to_parks(const activity::Homing& homing, const LoopView& loop) {
-    const AxisSet motors = motors_homed_by_touch(homing.sequence.axes(), loop);
+    const MotorSet motors = motors_homed_by_touch(homing.sequence.axes(), loop);
     const AxisCounts here = loop.counts();
     Program way{.name = "park", .axes = {}, .start_mm = {}, .blocks = {}};
     ProgramMove move{.target_mm = {}, .rapid = true, .arc = {}, .mode = PathMode::ExactStop};
-    for (std::size_t i = 0; i < here.size(); ++i) {
+    for (const AxisIndex i : axis_indices(here.size())) {
         const AxisConfig& axis = loop.machine.axes[i];
-        if ((loop.kinematics.motors_of_axes(axis_bit(i)) & motors) == 0) { continue; }
+        if ((loop.kinematics.motors_of_axes({i}) & motors).empty()) { continue; }
         way.axes.push_back(axis.name);
         way.start_mm.push_back(to_mm(axis, static_cast<double>(here[i])));
         move.target_mm.push_back(axis.homing.park_mm);
@@ -118,23 +109,21 @@ void advance_touch(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoop
         case TouchHoming::Next::Move: return begin_homing_move(homing, touch.program(loop), jobs, loop);
         case TouchHoming::Next::End:
             assume_place(touch.axis(), touch.place(), loop);
-            homing.by_touch &= ~axis_bit(touch.axis());
+            homing.by_touch.erase(touch.axis());
             homing.skew.begin(loop.axes);
             return homing.touch.reset();
-        case TouchHoming::Next::Fail: {
-            const AxisSet motors = loop.kinematics.motors_of_axes(axis_bit(touch.axis()));
-            return jobs.fail({touch.fault(), first_of(motors)}, loop);
-        }
+        case TouchHoming::Next::Fail:
+            return jobs.fail({touch.fault(), loop.kinematics.motors_of_axes({touch.axis()}).front()}, loop);
     }
 }
 
 /// Those of several motors of an axis that have switches.
-AxisSet approaching_motors(AxisSet axes, const CoordinatorLoop& loop) {
-    AxisSet motors = 0;
-    for (std::size_t i = 0; i < loop.machine.axes.size(); ++i) {
+MotorSet approaching_motors(AxisSet axes, const CoordinatorLoop& loop) {
+    MotorSet motors;
+    for (const AxisIndex i : axes) {
         const AxisConfig& axis = loop.machine.axes[i];
-        if (!has_axis(axes, i) || axis.motors.size() < 2 || !row_of(axis.homing.way).stops_itself) { continue; }
-        motors |= loop.kinematics.motors_of_axes(axis_bit(i));
+        if (axis.motors.size() < 2 || !row_of(axis.homing.way).stops_itself) { continue; }
+        motors |= loop.kinematics.motors_of_axes({i});
     }
     return motors;
 }
@@ -154,12 +143,12 @@ void advance_homing(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoo
             return jobs.fail({FaultCode::MotorsSkewed, *motor}, loop);
         }
     }
-    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
-        if (!loop.is_order_done(i)) { return; }
-        const auto& order = loop.orders.newest(i);
-        const auto& state = loop.axes.state(i);
+    for (const MotorIndex m : motor_indices(loop.axes.size())) {
+        if (!loop.is_order_done(m)) { return; }
+        const auto& order = loop.orders.newest(m);
+        const auto& state = loop.axes.state(m);
         const bool refused = state && state->command_fault != FaultCode::None;
-        if (refused && order && is_of_homing(order->kind)) { return jobs.fail({state->command_fault, i}, loop); }
+        if (refused && order && is_of_homing(order->kind)) { return jobs.fail({state->command_fault, m}, loop); }
     }
     if (homing.touch) { return advance_touch(homing, jobs, loop); }
     if (home_next_group(homing, loop)) { return; }
@@ -172,23 +161,23 @@ void advance_homing(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoo
 }
 
 bool home_next_group(activity::Homing& homing, CoordinatorLoop& loop) {
-    if (homing.approaching != 0) {
-        loop.order_each(std::exchange(homing.approaching, 0), AxisCommandKind::Home);
+    if (!homing.approaching.empty()) {
+        loop.order_each(std::exchange(homing.approaching, {}), AxisCommandKind::Home);
         return true;
     }
-    if (homing.by_touch != 0) {
+    if (!homing.by_touch.empty()) {
         if (!std::exchange(homing.has_assumed, true)) { assume_places(homing, loop); }
-        homing.touch.emplace(first_of(homing.by_touch), loop.machine);
+        homing.touch.emplace(homing.by_touch.front(), loop.machine);
         return true;
     }
     const AxisSet group = homing.sequence.next_group(loop.machine);
     homing.by_touch = axes_homed_by_touch(group, loop.machine);
-    const AxisSet by_touch = motors_homed_by_touch(homing.sequence.axes(), loop);
-    homing.approaching = approaching_motors(group, loop) & ~by_touch;
+    const MotorSet by_touch = motors_homed_by_touch(homing.sequence.axes(), loop);
+    homing.approaching = approaching_motors(group, loop) - by_touch;
     loop.order_each(homing.approaching, AxisCommandKind::Approach);
-    loop.order_each(loop.kinematics.motors_of_axes(group) & ~homing.approaching & ~by_touch, AxisCommandKind::Home);
+    loop.order_each(loop.kinematics.motors_of_axes(group) - homing.approaching - by_touch, AxisCommandKind::Home);
     homing.skew.begin(loop.axes);
-    return group != 0;
+    return !group.empty();
 }
 
 }  // namespace lockstep

@@ -67,8 +67,8 @@ void settle(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, Coo
     const bool is_held_return = path.intent == Intent::Hold && path.pause;
     const bool ends = path.intent == Intent::Stop || is_held_return;
     switch (end.kind) {
-        case EpochEnd::Kind::FramesDiffer: return jobs.fail_at_rest({FaultCode::FramesDiffer, end.axis}, loop);
-        case EpochEnd::Kind::Misplaced: return jobs.fail_at_rest({FaultCode::PositionMismatch, end.axis}, loop);
+        case EpochEnd::Kind::FramesDiffer: return jobs.fail_at_rest({FaultCode::FramesDiffer, end.motor}, loop);
+        case EpochEnd::Kind::Misplaced: return jobs.fail_at_rest({FaultCode::PositionMismatch, end.motor}, loop);
         case EpochEnd::Kind::Interrupted:
             return ends ? jobs.end(JobOutcome::Stopped, loop) : settle_interrupted(path, end, jobs, loop);
         case EpochEnd::Kind::Complete:
@@ -113,28 +113,28 @@ void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& l
     if (!jobs.path().runner().is_overdue() || jobs.path().probing().waits()) { return; }
     const auto homing = path.homing;
     // The fault names an axis that does not come to rest.
-    jobs.fail({FaultCode::NotAtRest, loop.axes.moving(loop.slot).value_or(0)}, loop);
+    jobs.fail({FaultCode::NotAtRest, loop.axes.moving(loop.slot).value_or(MotorIndex{})}, loop);
     jobs.fail_at_rest(path.fault, loop);
     if (homing) { loop.out.jobs.push_back(job_events::ended(homing->job, JobOutcome::Failed)); }
 }
 
 /// The motors that the job ordered to a place. `targets`: where they must be, if the job was not stopped.
-void settle_alone(AxisSet motors, const OwnTargets* targets, JobLifecycle& jobs, CoordinatorLoop& loop) {
+void settle_alone(MotorSet motors, const OwnTargets* targets, JobLifecycle& jobs, CoordinatorLoop& loop) {
     const Intent intent = jobs.activity().intent();
     if (intent == Intent::Abort) { return jobs.fail_at_rest(jobs.activity().fault(), loop); }
-    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
-        if (!has_axis(motors, i) || !loop.axes.state(i)) { continue; }
-        const AxisState& state = *loop.axes.state(i);
-        if (state.command_fault != FaultCode::None) { return jobs.fail({state.command_fault, i}, loop); }
+    for (const MotorIndex m : motors) {
+        if (!loop.axes.state(m)) { continue; }
+        const AxisState& state = *loop.axes.state(m);
+        if (state.command_fault != FaultCode::None) { return jobs.fail({state.command_fault, m}, loop); }
         if (targets == nullptr || intent != Intent::GoOn) { continue; }
-        if (state.position.count() != targets->target(i)) { return jobs.fail({FaultCode::PositionMismatch, i}, loop); }
+        if (state.position.count() != targets->target(m)) { return jobs.fail({FaultCode::PositionMismatch, m}, loop); }
     }
     jobs.end(intent == Intent::Stop ? JobOutcome::Stopped : JobOutcome::Done, loop);
 }
 
 bool are_orders_done(const CoordinatorLoop& loop) {
-    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
-        if (loop.axes.is_present(i, loop.slot) && !loop.is_order_done(i)) { return false; }
+    for (const MotorIndex m : motor_indices(loop.axes.size())) {
+        if (loop.axes.is_present(m, loop.slot) && !loop.is_order_done(m)) { return false; }
     }
     return true;
 }
@@ -160,7 +160,7 @@ void advance_job(JobLifecycle& jobs, CoordinatorLoop& loop) {
         return settle_alone(moves->targets.motors(), &moves->targets, jobs, loop);
     }
     if (!activity.is_jogging() || activity.as<activity::Jogging>()->jogs.none()) {
-        settle_alone(0, nullptr, jobs, loop);
+        settle_alone({}, nullptr, jobs, loop);
     }
 }
 

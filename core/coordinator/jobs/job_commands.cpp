@@ -70,18 +70,18 @@ CommandResult check_ready_to_move(const MachineActivity& activity, const LoopVie
 
 /// A motor that moves several axes must home with all of them, because their places are known together or not at all.
 CommandResult check_homes_alone(AxisSet axes, const LoopView& loop) {
-    for (std::size_t m = 0; m < loop.kinematics.motors().size(); ++m) {
+    for (const MotorIndex m : loop.kinematics.motors_of_axes(axes)) {
         const MotorConfig& motor = loop.kinematics.motors()[m];
         const AxisSet moved = loop.kinematics.axes_of_motor(m);
-        if ((moved & axes) == 0 || motor.moves_one_axis) { continue; }
-        if ((moved & ~axes) != 0) {
+        if (motor.moves_one_axis) { continue; }
+        if (!axes.contains(moved)) {
             return refuse(FaultCode::BadProgram,
                           loop.label_of(m) + " moves several axes, which can only be homed together: name all of them");
         }
         if (row_of(motor.homing.way).searches) { continue; }  // the carriage of a delta, which has a switch
-        for (std::size_t i = 0; i < loop.machine.axes.size(); ++i) {
+        for (const AxisIndex i : moved) {
             const AxisConfig& axis = loop.machine.axes[i];
-            if (!has_axis(moved, i) || !row_of(axis.homing.way).stops_itself) { continue; }
+            if (!row_of(axis.homing.way).stops_itself) { continue; }
             return refuse(FaultCode::BadProgram,
                           "the switch of axis " + axis.name +
                               " cannot stop motors of several devices; name an input "
@@ -169,7 +169,7 @@ void wait_for_person(PauseReason why, MachineActivity& activity, CoordinatorLoop
 }
 
 CommandResult stop_at_once(JobLifecycle& jobs, CoordinatorLoop& loop) {
-    loop.order_each(all_axes(loop.axes.size()), AxisCommandKind::StopNow);
+    loop.order_each(MotorSet::first(loop.axes.size()), AxisCommandKind::StopNow);
     jobs.fail({FaultCode::EmergencyStopped}, loop);
     return {};
 }
@@ -198,11 +198,11 @@ std::expected<std::shared_ptr<const KnownProgram>, Refusal> known_program(const 
 
 CommandResult home(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop) {
     if (auto ready = check_ready_to_move(jobs.activity(), loop); !ready) { return ready; }
-    const AxisSet all = all_axes(loop.machine.axes.size());
-    if ((command.axes & ~all) != 0) { return refuse(FaultCode::BadProgram, "the machine does not have this axis"); }
-    const AxisSet axes = command.axes == 0 ? all : command.axes;
+    const AxisSet all = AxisSet::first(loop.machine.axes.size());
+    if (!all.contains(command.axes)) { return refuse(FaultCode::BadProgram, "the machine does not have this axis"); }
+    const AxisSet axes = command.axes.empty() ? all : command.axes;
     if (auto alone = check_homes_alone(axes, loop); !alone) { return alone; }
-    const bool is_by_touch = axes_homed_by_touch(axes, loop.machine) != 0;
+    const bool is_by_touch = !axes_homed_by_touch(axes, loop.machine).empty();
     if (auto clocks = check_clocks(loop); is_by_touch && !clocks) { return clocks; }
     activity::Homing homing{{},
                             jobs.begin(JobKind::Home, command, nullptr, {}, loop),
@@ -381,7 +381,7 @@ CommandResult reset(JobLifecycle& jobs, CoordinatorLoop& loop) {
     if (activity.is_held()) { jobs.end(JobOutcome::Stopped, loop); }
     jobs.cut_inherited(TakeoverDoubt::Interrupted, loop);
     activity.become(MachineEvent::Reset, activity::Waiting{}, loop.out);
-    loop.order_each(all_axes(loop.axes.size()), AxisCommandKind::Reset);
+    loop.order_each(MotorSet::first(loop.axes.size()), AxisCommandKind::Reset);
     return {};
 }
 

@@ -109,14 +109,14 @@ void JobLifecycle::end_early(const MachineJob& job, std::optional<std::int32_t> 
 void JobLifecycle::fail(const MachineFault& fault, CoordinatorLoop& loop) {
     if (activity_.has_fault()) { return; }
     if (!activity_.in_motion()) { return fail_at_rest(fault, loop); }
-    loop.notice({CoordinatorNotice::Kind::Fault, fault.code, fault.axis});
+    loop.notice({CoordinatorNotice::Kind::Fault, fault.code, fault.motor});
     activity_.is<activity::OnPath>() ? path_.runner().stop(loop.next_state) : halt_axes(activity_, loop);
     activity_.abort(fault, loop.out);
 }
 
 void JobLifecycle::fail_at_rest(const MachineFault& fault, CoordinatorLoop& loop) {
     const MachineFault first = activity_.has_fault() ? activity_.fault() : fault;
-    if (!activity_.has_fault()) { loop.notice({CoordinatorNotice::Kind::Fault, fault.code, fault.axis}); }
+    if (!activity_.has_fault()) { loop.notice({CoordinatorNotice::Kind::Fault, fault.code, fault.motor}); }
     cut_inherited(TakeoverDoubt::AxisInDoubt, loop);
     const MachineJob* const job = activity_.job();
     const activity::Paused* const pause = activity_.pause();
@@ -147,12 +147,12 @@ void brake_on_path(Intent intent, JobLifecycle& jobs, CoordinatorLoop& loop) {
 /// An axis that was ordered an emergency stop before keeps this order as its newest one.
 void halt_axes(MachineActivity& activity, CoordinatorLoop& loop) {
     if (auto* const jogging = activity.as<activity::Jogging>()) { jogging->jogs.release_all(); }
-    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
-        const bool moves = loop.orders.is_open(i, AxisCommandKind::MoveOwn, loop.axes) ||
-                           loop.orders.is_open(i, AxisCommandKind::Home, loop.axes) ||
-                           loop.orders.is_open(i, AxisCommandKind::Approach, loop.axes) ||
-                           loop.orders.is_open(i, AxisCommandKind::Jog, loop.axes);
-        if (moves) { (void)loop.order(i, AxisCommandKind::Halt); }
+    for (const MotorIndex m : motor_indices(loop.axes.size())) {
+        const bool moves = loop.orders.is_open(m, AxisCommandKind::MoveOwn, loop.axes) ||
+                           loop.orders.is_open(m, AxisCommandKind::Home, loop.axes) ||
+                           loop.orders.is_open(m, AxisCommandKind::Approach, loop.axes) ||
+                           loop.orders.is_open(m, AxisCommandKind::Jog, loop.axes);
+        if (moves) { (void)loop.order(m, AxisCommandKind::Halt); }
     }
 }
 

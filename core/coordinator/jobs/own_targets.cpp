@@ -10,7 +10,7 @@
 namespace lockstep {
 namespace {
 
-CommandResult check_move(std::size_t motor, const OwnMoveRequest& move, const LoopView& loop, BeginSteps begin_steps) {
+CommandResult check_move(MotorIndex motor, const OwnMoveRequest& move, const LoopView& loop, BeginSteps begin_steps) {
     const MotorConfig& config = loop.kinematics.motors()[motor];
     if (!loop.axes.state(motor)->homed) { return refuse(FaultCode::NotHomed, loop.label_of(motor) + " is not homed"); }
     const auto pieces = OwnPieces::plan(config, loop.machine.tick_ns, config.method, move, begin_steps);
@@ -33,7 +33,7 @@ std::expected<OwnTargets, Refusal> OwnTargets::plan(const KnownProgram& program,
     targets.begun_ = loop.now;
     targets.from_ = loop.counts();
     targets.begins_ = targets.ends_ = loop.axes.counts();
-    const std::vector<std::size_t>& axes = program.places();
+    const std::vector<AxisIndex>& axes = program.places();
     const std::span<const double> end_mm = program.place_before(program.known()).value();
     for (std::size_t k = 0; k < axes.size(); ++k) {
         const AxisConfig& axis = loop.machine.axes[axes[k]];
@@ -43,10 +43,10 @@ std::expected<OwnTargets, Refusal> OwnTargets::plan(const KnownProgram& program,
         if (!motor) { return refuse(FaultCode::BadProgram, loop.kinematics.needs_frames(axes[k])); }
         targets.ends_.steps[*motor] = loop.kinematics.motor_at(*motor, targets.from_, axes[k], to);
     }
-    for (std::size_t m = 0; m < targets.ends_.size(); ++m) {
+    for (const MotorIndex m : motor_indices(targets.ends_.size())) {
         const std::int64_t steps = std::abs(targets.ends_[m] - targets.begins_[m]);
         if (steps == 0) { continue; }
-        targets.motors_ |= axis_bit(m);
+        targets.motors_.insert(m);
         const MotorConfig& motor = loop.kinematics.motors()[m];
         const OwnMoveRequest move{steps, motor.max_velocity_mm_s, ticks};
         if (auto answer = check_move(m, move, loop, begin_steps); !answer) { return std::unexpected(answer.error()); }
@@ -56,20 +56,19 @@ std::expected<OwnTargets, Refusal> OwnTargets::plan(const KnownProgram& program,
 }
 
 void OwnTargets::order(AxisOrders& orders, const Term& term) const {
-    for (std::size_t i = 0; i < ends_.size(); ++i) {
-        if (!has_axis(motors_, i)) { continue; }
-        AxisCommand& order = orders.give(i, AxisCommandKind::MoveOwn, term);
-        order.target_steps = ends_[i];
+    for (const MotorIndex m : motors_) {
+        AxisCommand& order = orders.give(m, AxisCommandKind::MoveOwn, term);
+        order.target_steps = ends_[m];
         order.ticks = ticks_;
     }
 }
 
 double OwnTargets::progress(const AxisRoster& axes) const {
     double progress = 1;
-    for (std::size_t i = 0; i < ends_.size(); ++i) {
-        if (!has_axis(motors_, i) || !axes.state(i)) { continue; }
-        const auto gone = static_cast<double>(axes.state(i)->position.count() - begins_[i]);
-        const auto way = static_cast<double>(ends_[i] - begins_[i]);
+    for (const MotorIndex m : motors_) {
+        if (!axes.state(m)) { continue; }
+        const auto gone = static_cast<double>(axes.state(m)->position.count() - begins_[m]);
+        const auto way = static_cast<double>(ends_[m] - begins_[m]);
         progress = std::min(progress, std::clamp(gone / way, 0.0, 1.0));
     }
     return progress;

@@ -2,10 +2,10 @@
 // progress.
 #pragma once
 
-#include "core/axis_set.hpp"
 #include "core/coordinator/axes/axis_roster.hpp"
 #include "core/coordinator/path/program_plan.hpp"
 #include "core/coordinator/state/refusal.hpp"
+#include "core/indices.hpp"
 #include "core/motion/step_source.hpp"
 
 namespace lockstep {
@@ -20,10 +20,10 @@ public:
                                                    const LoopView& loop, BeginSteps begin_steps);
 
     /// The motors that move.
-    AxisSet motors() const { return motors_; }
+    MotorSet motors() const { return motors_; }
     /// Where the axes were.
     const AxisCounts& from() const { return from_; }
-    std::int64_t target(std::size_t motor) const { return ends_[motor]; }
+    std::int64_t target(MotorIndex motor) const { return ends_[motor]; }
     void order(AxisOrders& orders, const Term& term) const;
 
     /// 0 to 1, by the axis with the least progress.
@@ -31,7 +31,7 @@ public:
     double remaining_s(Tick now, const MachineConfig& machine) const;
 
 private:
-    AxisSet motors_ = 0;
+    MotorSet motors_;
     AxisCounts from_;
     MotorCounts begins_;
     MotorCounts ends_;

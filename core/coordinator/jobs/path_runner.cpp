@@ -125,8 +125,8 @@ PathNext PathRunner::continue_rest(PathTask& task, const JobRest& rest, std::uin
 }
 
 void PathRunner::begin_epoch(PathTask& task, const PathPlace& place, MotorPositions at, const LoopView& loop) {
-    for (std::size_t i = at.size(); i < loop.axes.size(); ++i) {
-        at.append(Position::steps(loop.axes.state(i)->position.count()));
+    for (MotorIndex m{at.size()}; m < loop.axes.size(); ++m) {
+        at.append(Position::steps(loop.axes.state(m)->position.count()));
     }
     task.has_moved = true;
     SwitchedBy switched{events_.devices(), events_.from()};

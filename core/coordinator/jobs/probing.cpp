@@ -15,7 +15,7 @@ namespace {
 /// The positions of the motors' slides. All motors must rest.
 MotorPositions positions_of(const LoopView& loop) {
     MotorPositions at;
-    for (std::size_t i = 0; i < loop.axes.size(); ++i) { at.append(slide_of(*loop.axes.state(i))); }
+    for (const MotorIndex m : motor_indices(loop.axes.size())) { at.append(slide_of(*loop.axes.state(m))); }
     return at;
 }
 
@@ -112,7 +112,7 @@ void Probing::note(const PathTask& task, const std::optional<FirstTouch>& touch,
         check(result_->input.has_value(), "the inputs of an epoch are those of the machine");
         result_->tick = touch->tick;
     }
-    for (std::size_t i = 0; i < loop.machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(loop.machine.axes.size())) {
         result_->places_mm.append(loop.kinematics.axis_steps(i, at) / loop.machine.axes[i].steps_per_mm);
     }
 }

@@ -109,7 +109,7 @@ std::expected<void, TakeoverDoubt> check_place(const FrameRest& rest, const Move
     const double length = way.length();
     double near_mm = way.tolerance_mm + kNear_share * length;
     double most_mm = 0;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         most_mm = std::max(most_mm, kNear_steps * kinematics.step_mm(i));
     }
     near_mm += most_mm;
@@ -188,7 +188,7 @@ std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, cons
     }
     Places axis_steps;
     AxisCounts at;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         axis_steps.push_back(kinematics.axis_steps(i, {slides.begin(), slides.size()}));
         at.append(std::llround(axis_steps[i]));
     }

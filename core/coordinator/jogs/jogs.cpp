@@ -27,7 +27,7 @@ CommandResult check_speed(const AxisConfig& axis, double speed_mm_s) {
 
 /// The place of an axis's motor that corrects its screw, where the jog of the axis ends by itself. A distance that is
 /// none for the motor is a step of it, unless the axis is at the end of its travel.
-std::int64_t corrected_target(const JogAxis& asked, std::size_t motor, const AxisState& state, const LoopView& loop) {
+std::int64_t corrected_target(const JogAxis& asked, MotorIndex motor, const AxisState& state, const LoopView& loop) {
     const AxisConfig& axis = loop.machine.axes[asked.axis];
     const std::int64_t count = state.position.count();
     const std::int64_t step = asked.speed_mm_s < 0 ? -1 : 1;
@@ -44,7 +44,7 @@ std::int64_t corrected_target(const JogAxis& asked, std::size_t motor, const Axi
 }
 
 /// The place, in the motor's steps, where the jog of an axis with a motor of its own ends by itself.
-std::int64_t motor_target(const JogAxis& asked, std::size_t motor, const LoopView& loop) {
+std::int64_t motor_target(const JogAxis& asked, MotorIndex motor, const LoopView& loop) {
     const AxisState& state = *loop.axes.state(motor);
     if (loop.kinematics.corrects_screw(motor)) { return corrected_target(asked, motor, state, loop); }
     return jog_target(asked, loop.machine.axes[asked.axis], state.position.count(), state.homed);
@@ -130,8 +130,8 @@ bool Jogs::none() const {
     return std::ranges::none_of(jogs_, [](const auto& jog) { return jog.has_value(); });
 }
 
-std::optional<std::size_t> Jogs::advance(const LoopView& loop, AxisOrders& orders, std::vector<AxisCommand>& out) {
-    for (std::size_t i = 0; i < jogs_.size(); ++i) {
+std::optional<MotorIndex> Jogs::advance(const LoopView& loop, AxisOrders& orders, std::vector<AxisCommand>& out) {
+    for (const AxisIndex i : axis_indices(jogs_.size())) {
         const auto own = loop.kinematics.own_motor(i);
         if (!own) { continue; }
         switch (next(i, *own, loop, orders)) {
@@ -146,7 +146,7 @@ std::optional<std::size_t> Jogs::advance(const LoopView& loop, AxisOrders& order
     return std::nullopt;
 }
 
-Jogs::Next Jogs::next(std::size_t axis, std::size_t motor, const LoopView& loop, const AxisOrders& orders) const {
+Jogs::Next Jogs::next(AxisIndex axis, MotorIndex motor, const LoopView& loop, const AxisOrders& orders) const {
     const auto& jog = jogs_[axis];
     if (orders.is_done(motor, loop.axes)) { return jog ? next_at_rest(*jog, loop) : Next::Nothing; }
     if (!orders.is_open(motor, AxisCommandKind::Jog, loop.axes)) { return Next::Nothing; }
@@ -165,7 +165,7 @@ Jogs::Next Jogs::next_at_rest(const Jog& jog, const LoopView& loop) {
     return loop.now == jog.renewed ? Next::Order : Next::Nothing;
 }
 
-const AxisCommand& Jogs::order(std::size_t axis, const LoopView& loop, AxisOrders& orders) {
+const AxisCommand& Jogs::order(AxisIndex axis, const LoopView& loop, AxisOrders& orders) {
     Jog& jog = *jogs_[axis];
     if (!jog.target) { jog.target = motor_target(jog.asked, jog.motor, loop); }
     AxisCommand& order = orders.give(jog.motor, AxisCommandKind::Jog, loop.term);

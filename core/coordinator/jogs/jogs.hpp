@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/axis_set.hpp"
 #include "core/coordinator/state/refusal.hpp"
+#include "core/indices.hpp"
 #include "core/static_vector.hpp"
 
 namespace lockstep {
@@ -34,13 +34,13 @@ public:
     void release_all();
 
     /// Call it in each loop. Gives orders to the axes. Returns an axis that refused its order.
-    std::optional<std::size_t> advance(const LoopView& loop, AxisOrders& orders, std::vector<AxisCommand>& out);
+    std::optional<MotorIndex> advance(const LoopView& loop, AxisOrders& orders, std::vector<AxisCommand>& out);
 
     bool none() const;
 
 private:
     struct Jog {
-        std::size_t motor = 0;  // the axis's own
+        MotorIndex motor;  // the axis's own
         Identity client = 0;
         std::uint64_t sequence = 0;  // of the command that began the jog
         JogAxis asked;
@@ -51,9 +51,9 @@ private:
     enum class Next { Nothing, Order, Renew, Halt, Forget, Report };
 
     std::expected<Jog, Refusal> jog_of(const JogAxis& asked, const Command& command, const LoopView& loop) const;
-    Next next(std::size_t axis, std::size_t motor, const LoopView& loop, const AxisOrders& orders) const;
+    Next next(AxisIndex axis, MotorIndex motor, const LoopView& loop, const AxisOrders& orders) const;
     static Next next_at_rest(const Jog& jog, const LoopView& loop);
-    const AxisCommand& order(std::size_t axis, const LoopView& loop, AxisOrders& orders);
+    const AxisCommand& order(AxisIndex axis, const LoopView& loop, AxisOrders& orders);
 
     Ticks hold_;
     StaticVector<std::optional<Jog>, kMaxAxes> jogs_;  // by axis

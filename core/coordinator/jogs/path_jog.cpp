@@ -10,7 +10,7 @@ namespace lockstep {
 namespace {
 
 struct Way {
-    std::size_t axis = 0;
+    AxisIndex axis;
     double speed_mm_s = 0;  // with its sign
     double seconds = 0;     // until its end
 };

@@ -32,7 +32,7 @@ public:
 
     /// Begins another path in the same memory, from block `first` of a program on. `axes`: the machine's axes that the
     /// program names. `from`: where all axes stand. Returns false and changes nothing if the source cannot do that.
-    virtual bool begin(const std::shared_ptr<const ProgramBlocks>& /*program*/, std::span<const std::size_t> /*axes*/,
+    virtual bool begin(const std::shared_ptr<const ProgramBlocks>& /*program*/, std::span<const AxisIndex> /*axes*/,
                        std::uint32_t /*first*/, const AxisCounts& /*from*/) {
         return false;
     }

@@ -139,7 +139,7 @@ private:
 OutputPlanner::OutputPlanner(const MachineConfig& machine) : room_(output_room(machine.timing)) {
     if (machine.outputs.empty()) { return; }
     const Kinematics kinematics(machine);
-    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+    for (const MotorIndex m : motor_indices(kinematics.motors().size())) {
         const MotorConfig& config = kinematics.motors()[m];
         Motor motor{.number = static_cast<std::uint32_t>(m),
                     .steps_per_mm = config.moves_one_axis ? 1 / kinematics.axis_mm(*config.axis, m) : 0,

@@ -8,7 +8,7 @@ ProgramFrames::ProgramFrames(const MachineConfig& machine, const std::shared_ptr
     (void)begin(program, ProgramPlanner(machine).axes_of(program->axes()).value(), first, from);
 }
 
-bool ProgramFrames::begin(const std::shared_ptr<const ProgramBlocks>& program, std::span<const std::size_t> axes,
+bool ProgramFrames::begin(const std::shared_ptr<const ProgramBlocks>& program, std::span<const AxisIndex> axes,
                           std::uint32_t first, const AxisCounts& from) {
     moves_.begin(program, axes, first, from);
     resumed_ = first;

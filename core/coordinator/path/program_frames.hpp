@@ -15,7 +15,7 @@ public:
                   std::uint32_t first, const AxisCounts& from);
 
     std::unique_ptr<FrameSource> clone() const override { return std::make_unique<ProgramFrames>(*this); }
-    bool begin(const std::shared_ptr<const ProgramBlocks>& program, std::span<const std::size_t> axes,
+    bool begin(const std::shared_ptr<const ProgramBlocks>& program, std::span<const AxisIndex> axes,
                std::uint32_t first, const AxisCounts& from) override;
     void resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) override;
     bool read() override;

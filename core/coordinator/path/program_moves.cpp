@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-void ProgramMoves::begin(const std::shared_ptr<const ProgramBlocks>& program, std::span<const std::size_t> axes,
+void ProgramMoves::begin(const std::shared_ptr<const ProgramBlocks>& program, std::span<const AxisIndex> axes,
                          std::uint32_t first, const AxisCounts& from) {
     program_ = program;
     axes_.assign(axes.begin(), axes.end());
@@ -50,7 +50,7 @@ bool ProgramMoves::begin_at_place(PathInput& path) {
     const auto place = program_->place_before(next_);
     is_starved_ = !place;
     if (!place) { return false; }
-    AxisVector at = at_;
+    PlaceVector at = at_;
     for (std::size_t i = 0; i < axes_.size(); ++i) { at[axes_[i]] = (*place)[i] * steps_per_mm_[axes_[i]]; }
     path.begin_program_at(at);
     return true;
@@ -65,14 +65,14 @@ ProgramMoves::Read ProgramMoves::finish(PathInput& path) {
 AxisCounts ProgramMoves::rest() const {
     if (!rest_) { return from_; }
     AxisCounts to = from_;
-    for (const std::size_t axis : axes_) { to[axis] = std::llround((*rest_)[axis]); }
+    for (const AxisIndex axis : axes_) { to[axis] = std::llround((*rest_)[axis]); }
     return within_travel(to, limits_);
 }
 
 /// Sets the way of each axis, and returns the length in mm.
 double ProgramMoves::measure(const ProgramMove& move) {
     from_mm_.clear();
-    for (const std::size_t axis : axes_) { from_mm_.push_back(at_[axis] / steps_per_mm_[axis]); }
+    for (const AxisIndex axis : axes_) { from_mm_.push_back(at_[axis] / steps_per_mm_[axis]); }
     const double length = length_mm(move, from_mm_);
     way_mm_.assign(at_.size(), 0);
     for (std::size_t i = 0; i < axes_.size(); ++i) {

@@ -22,7 +22,7 @@ public:
     }
 
     /// Begins a leg. `axes`: the machine's axes that the program names. `from`: where all axes stand.
-    void begin(const std::shared_ptr<const ProgramBlocks>& program, std::span<const std::size_t> axes,
+    void begin(const std::shared_ptr<const ProgramBlocks>& program, std::span<const AxisIndex> axes,
                std::uint32_t first, const AxisCounts& from);
 
     /// A block that has been read; null if there was none. At the leg's end `ends` is set.
@@ -51,7 +51,7 @@ private:
     std::shared_ptr<const ProgramBlocks> program_;
     std::vector<double> steps_per_mm_;
     std::vector<AxisLimits> limits_;
-    std::vector<std::size_t> axes_;  // the machine's axes that the program names
+    std::vector<AxisIndex> axes_;  // the machine's axes that the program names
     double tick_s_ = 0;
     OutputPace pace_;
     std::vector<double> from_mm_;  // of the move that was measured, by axis of the program
@@ -61,8 +61,8 @@ private:
     bool is_starved_ = false;
     LegEnd end_;  // how the leg ends
     AxisCounts from_;
-    AxisVector at_;                   // where the last block read leads to
-    std::optional<AxisVector> rest_;  // where the path ends so far; it rests on whole steps
+    PlaceVector at_;                   // where the last block read leads to
+    std::optional<PlaceVector> rest_;  // where the path ends so far; it rests on whole steps
 };
 
 }  // namespace lockstep

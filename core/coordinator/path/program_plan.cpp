@@ -39,10 +39,10 @@ std::int64_t whole_steps(double steps) {
     return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
 }
 
-double length_of_arc(const ProgramMove& arc, const AxisCounts& from, std::span<const std::size_t> axes,
+double length_of_arc(const ProgramMove& arc, const AxisCounts& from, std::span<const AxisIndex> axes,
                      std::span<const double> steps_per_mm) {
     StaticVector<double, kMaxAxes> from_mm;
-    for (const std::size_t axis : axes) { from_mm.append(static_cast<double>(from[axis]) / steps_per_mm[axis]); }
+    for (const AxisIndex axis : axes) { from_mm.append(static_cast<double>(from[axis]) / steps_per_mm[axis]); }
     return length_mm(arc, {from_mm.begin(), from_mm.size()});
 }
 
@@ -72,32 +72,30 @@ TouchInputs ProgramPlanner::touch_inputs(const Probe& probe) const {
     for (const InputConfig* const input : inputs_of_probe(machine_.inputs, probe.input)) {
         const auto motor = motor_named(machine_, input->motor);
         if (!motor) { continue; }
-        touch.any_of.append({static_cast<std::uint32_t>(*motor), static_cast<std::uint8_t>(input->channel)});
+        touch.any_of.append({*motor, static_cast<std::uint8_t>(input->channel)});
     }
     return touch;
 }
 
-std::expected<std::vector<std::size_t>, PlanError> ProgramPlanner::axes_of(
-    const std::vector<std::string>& names) const {
-    std::vector<std::size_t> places;
+std::expected<std::vector<AxisIndex>, PlanError> ProgramPlanner::axes_of(const std::vector<std::string>& names) const {
+    std::vector<AxisIndex> places;
     for (const std::string& name : names) {
-        std::size_t place = 0;
-        while (place < machine_.axes.size() && machine_.axes[place].name != name) { ++place; }
-        if (place == machine_.axes.size()) {
+        const auto place = machine_.axis_named(name);
+        if (!place) {
             return std::unexpected(PlanError{FaultCode::BadProgram, std::nullopt,
                                              "the program moves axis " + name + ", which this machine does not have"});
         }
-        places.push_back(place);
+        places.push_back(*place);
     }
     return places;
 }
 
-std::expected<AxisCounts, PlanError> ProgramPlanner::target(const ProgramMove& move, std::span<const std::size_t> axes,
+std::expected<AxisCounts, PlanError> ProgramPlanner::target(const ProgramMove& move, std::span<const AxisIndex> axes,
                                                             const AxisCounts& from,
                                                             std::optional<std::int32_t> line) const {
     AxisCounts to = from;
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        const std::size_t axis = axes[i];
+        const AxisIndex axis = axes[i];
         const double mm = move.target_mm[i];
         const double steps = mm * steps_per_mm_[axis];
         if (!(std::abs(steps) < kMaxSteps)) { return std::unexpected(too_far(machine_.axes[axis], mm, line)); }
@@ -109,12 +107,12 @@ std::expected<AxisCounts, PlanError> ProgramPlanner::target(const ProgramMove& m
     return within_travel(to, limits_);
 }
 
-bool ProgramPlanner::is_within_travel(std::size_t axis, std::int64_t steps) const {
+bool ProgramPlanner::is_within_travel(AxisIndex axis, std::int64_t steps) const {
     const std::int64_t rounding = kinematics_.rest_steps(axis);
     return steps >= limits_[axis].min_steps - rounding && steps <= limits_[axis].max_steps + rounding;
 }
 
-std::expected<void, PlanError> ProgramPlanner::check_arc(const ProgramMove& move, const std::vector<std::size_t>& axes,
+std::expected<void, PlanError> ProgramPlanner::check_arc(const ProgramMove& move, const std::vector<AxisIndex>& axes,
                                                          std::span<const double> from_mm,
                                                          std::optional<std::int32_t> line) const {
     if (coordination_of(machine_).moves_straight) {
@@ -135,7 +133,7 @@ std::expected<void, PlanError> ProgramPlanner::check_arc(const ProgramMove& move
     return {};
 }
 
-AxisCounts ProgramPlanner::start_of(const ProgramHead& program, std::span<const std::size_t> axes,
+AxisCounts ProgramPlanner::start_of(const ProgramHead& program, std::span<const AxisIndex> axes,
                                     const AxisCounts& at) const {
     AxisCounts start = at;
     for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -149,10 +147,9 @@ std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& pr
     return axes ? check_start(program, *axes, start) : std::unexpected(axes.error());
 }
 
-std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& program,
-                                                           std::span<const std::size_t> axes,
+std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& program, std::span<const AxisIndex> axes,
                                                            const AxisCounts& start) const {
-    for (std::size_t i = 0; i < start.size(); ++i) {
+    for (const AxisIndex i : axis_indices(start.size())) {
         const AxisConfig& axis = machine_.axes[i];
         const std::string unit = " " + std::string(unit_of(axis.name));
         if (is_within_travel(i, start[i])) { continue; }
@@ -182,7 +179,7 @@ PathMove ProgramPlanner::path_move(const ProgramMove& linear, const AxisCounts& 
 }
 
 /// An arc has a length even if its ends are the same.
-void ProgramPlanner::note_arc(const ProgramMove& arc, const std::vector<std::size_t>& axes, PathMove& move) const {
+void ProgramPlanner::note_arc(const ProgramMove& arc, const std::vector<AxisIndex>& axes, PathMove& move) const {
     move.length_mm = length_of_arc(arc, move.from, axes, steps_per_mm_);
     move.lead = std::max<std::int64_t>(move.lead, 1);
 }
@@ -232,7 +229,7 @@ std::unique_ptr<FrameSource> ProgramPlanner::frames(std::shared_ptr<const Progra
     return std::make_unique<LaiFrames>(machine_, std::move(program), std::move(moves), std::move(events), end);
 }
 
-bool ProgramPlanner::moves(const Block& block, std::span<const std::size_t> axes, AxisCounts& at) const {
+bool ProgramPlanner::moves(const Block& block, std::span<const AxisIndex> axes, AxisCounts& at) const {
     if (const auto* dwell = std::get_if<Dwell>(&block.action)) { return dwell->seconds > 0; }
     const auto* move = std::get_if<ProgramMove>(&block.action);
     if (move == nullptr) { return false; }
@@ -242,7 +239,7 @@ bool ProgramPlanner::moves(const Block& block, std::span<const std::size_t> axes
 }
 
 std::expected<std::optional<PathMove>, PlanError> ProgramPlanner::move_of(const Block& block, std::uint32_t number,
-                                                                          const std::vector<std::size_t>& axes,
+                                                                          const std::vector<AxisIndex>& axes,
                                                                           AxisCounts& at) const {
     PathMove move{.from = at, .to = at};
     if (const auto* dwell = std::get_if<Dwell>(&block.action)) {
@@ -270,7 +267,7 @@ std::expected<std::optional<PathMove>, PlanError> ProgramPlanner::move_of(const 
 }
 
 std::expected<std::optional<double>, PlanError> ProgramPlanner::length_of(const Block& block, std::uint32_t number,
-                                                                          const std::vector<std::size_t>& axes,
+                                                                          const std::vector<AxisIndex>& axes,
                                                                           AxisCounts& at) const {
     const auto* move = std::get_if<ProgramMove>(&block.action);
     if (move == nullptr) { return std::nullopt; }
@@ -285,7 +282,7 @@ std::expected<std::optional<double>, PlanError> ProgramPlanner::length_of(const 
     at = *to;
     if (move->arc) { return length_of_arc(*move, from, axes, steps_per_mm_); }
     double square = 0;
-    for (const std::size_t axis : axes) {
+    for (const AxisIndex axis : axes) {
         const double mm = static_cast<double>(at[axis] - from[axis]) / steps_per_mm_[axis];
         square += mm * mm;
     }

@@ -84,40 +84,38 @@ public:
     std::vector<PathMove> moves_of(const Program& program, const Leg& leg) const;
 
     /// The places of axes in the machine. Error: an axis that it lacks.
-    std::expected<std::vector<std::size_t>, PlanError> axes_of(const std::vector<std::string>& names) const;
+    std::expected<std::vector<AxisIndex>, PlanError> axes_of(const std::vector<std::string>& names) const;
     /// Error: an axis of the machine stands outside its travel, so no frame may begin there, or the axes do not stand
     /// where the program starts.
     std::expected<void, PlanError> check_start(const ProgramHead& program, const AxisCounts& start) const;
     /// The same for a program with these `axes` (axes_of).
-    std::expected<void, PlanError> check_start(const ProgramHead& program, std::span<const std::size_t> axes,
+    std::expected<void, PlanError> check_start(const ProgramHead& program, std::span<const AxisIndex> axes,
                                                const AxisCounts& start) const;
     /// The start of a program with these `axes` (axes_of), if the axes stand `at` a place that check_start() accepts.
     /// The two can differ where motors rest on whole steps of their own.
-    AxisCounts start_of(const ProgramHead& program, std::span<const std::size_t> axes, const AxisCounts& at) const;
+    AxisCounts start_of(const ProgramHead& program, std::span<const AxisIndex> axes, const AxisCounts& at) const;
     /// The end of a move. If it is outside the travel only because motors rest on whole steps, it is the end of the
     /// travel. Error: it is outside the travel, or too far to count.
-    std::expected<AxisCounts, PlanError> target(const ProgramMove& move, std::span<const std::size_t> axes,
+    std::expected<AxisCounts, PlanError> target(const ProgramMove& move, std::span<const AxisIndex> axes,
                                                 const AxisCounts& from, std::optional<std::int32_t> line) const;
     /// Error: the arc has no radius, does not close, leaves the travel, or is for LAI, which has no arcs.
-    std::expected<void, PlanError> check_arc(const ProgramMove& move, const std::vector<std::size_t>& axes,
+    std::expected<void, PlanError> check_arc(const ProgramMove& move, const std::vector<AxisIndex>& axes,
                                              std::span<const double> from_mm, std::optional<std::int32_t> line) const;
     /// Whether a block of a program with these `axes` (axes_of) moves an axis or dwells. Sets `at` to the block's end.
-    bool moves(const Block& block, std::span<const std::size_t> axes, AxisCounts& at) const;
+    bool moves(const Block& block, std::span<const AxisIndex> axes, AxisCounts& at) const;
     /// Returns the block's move or dwell from `at`, of a program with these `axes` (axes_of), and sets `at` to its end.
     /// Returns nullopt if the block neither moves nor dwells. Errors: those of target(), and moves that the LAI method
     /// cannot make.
     std::expected<std::optional<PathMove>, PlanError> move_of(const Block& block, std::uint32_t number,
-                                                              const std::vector<std::size_t>& axes,
-                                                              AxisCounts& at) const;
+                                                              const std::vector<AxisIndex>& axes, AxisCounts& at) const;
     /// Returns the length of the block's move from `at`, in mm, and sets `at` to its end. Returns nullopt if no axis
     /// moves. Errors as with move_of().
     std::expected<std::optional<double>, PlanError> length_of(const Block& block, std::uint32_t number,
-                                                              const std::vector<std::size_t>& axes,
-                                                              AxisCounts& at) const;
+                                                              const std::vector<AxisIndex>& axes, AxisCounts& at) const;
 
 private:
-    bool is_within_travel(std::size_t axis, std::int64_t steps) const;
-    void note_arc(const ProgramMove& arc, const std::vector<std::size_t>& axes, PathMove& move) const;
+    bool is_within_travel(AxisIndex axis, std::int64_t steps) const;
+    void note_arc(const ProgramMove& arc, const std::vector<AxisIndex>& axes, PathMove& move) const;
     PathMove path_move(const ProgramMove& linear, const AxisCounts& from, const AxisCounts& to) const;
 
     MachineConfig machine_;

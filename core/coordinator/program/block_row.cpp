@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "core/axis_set.hpp"
 #include "core/if_positive.hpp"
+#include "core/indices.hpp"
 
 namespace lockstep {
 namespace {

@@ -15,7 +15,7 @@ std::expected<KnownProgram, ProgramCut> KnownProgram::begin(const MachineConfig&
     return KnownProgram(machine, std::move(head), *std::move(axes), std::move(rows));
 }
 
-KnownProgram::KnownProgram(const MachineConfig& machine, ProgramHead head, std::vector<std::size_t> axes,
+KnownProgram::KnownProgram(const MachineConfig& machine, ProgramHead head, std::vector<AxisIndex> axes,
                            std::unique_ptr<RowStore> rows)
     : planner_(machine),
       head_(std::move(head)),

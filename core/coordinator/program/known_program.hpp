@@ -50,7 +50,7 @@ public:
     const ProgramHead& head() const { return head_; }
     const std::vector<std::string>& axes() const override { return head_.axes; }
     /// The places of these axes in the machine.
-    const std::vector<std::size_t>& places() const { return axes_; }
+    const std::vector<AxisIndex>& places() const { return axes_; }
     /// More blocks may come.
     bool is_open() const { return is_open_; }
     const std::optional<ProgramCut>& cut() const { return cut_; }
@@ -74,7 +74,7 @@ public:
     static constexpr std::size_t kLegsKept = 65'536;
 
 private:
-    KnownProgram(const MachineConfig& machine, ProgramHead head, std::vector<std::size_t> axes,
+    KnownProgram(const MachineConfig& machine, ProgramHead head, std::vector<AxisIndex> axes,
                  std::unique_ptr<RowStore> rows);
     std::expected<void, ProgramCut> check(const Block& block, std::span<const double> from_mm) const;
     std::expected<void, ProgramCut> take_all(std::span<const Block> blocks);
@@ -84,7 +84,7 @@ private:
     ProgramPlanner planner_;
     AxisCounts zero_;  // a zero for each axis of the machine
     ProgramHead head_;
-    std::vector<std::size_t> axes_;  // places in the machine of the axes that the program names
+    std::vector<AxisIndex> axes_;  // places in the machine of the axes that the program names
     std::unique_ptr<RowStore> rows_;
     BlockTimes times_;
     bool is_open_ = true;

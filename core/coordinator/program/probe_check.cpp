@@ -22,7 +22,7 @@ double seconds_until_braking(const MachineConfig& machine, const InputConfig& in
 }
 
 /// The deceleration along a straight move that no axis's limit forbids.
-double deceleration_of(const ProgramMove& move, const MachineConfig& machine, std::span<const std::size_t> axes,
+double deceleration_of(const ProgramMove& move, const MachineConfig& machine, std::span<const AxisIndex> axes,
                        std::span<const double> from_mm) {
     double length = 0;
     for (std::size_t i = 0; i < axes.size(); ++i) { length = std::hypot(length, move.target_mm[i] - from_mm[i]); }
@@ -75,7 +75,7 @@ Slot slots_until_known(const InputConfig& input, const MachineConfig& machine) {
 }
 
 std::expected<void, PlanError> ProbeCheck::next(const Block& block, const MachineConfig& machine,
-                                                std::span<const std::size_t> axes, std::span<const double> from_mm) {
+                                                std::span<const AxisIndex> axes, std::span<const double> from_mm) {
     if (has_moved_) { return refuse(block, "a program ends with its probing move; send what follows it afterwards"); }
     if (const auto* probe = std::get_if<Probe>(&block.action); probe != nullptr && !probe_) {
         probe_ = *probe;

@@ -31,7 +31,7 @@ public:
     /// begins. Errors: an input that the machine lacks; something else than one straight move with a feed behind the
     /// Probe; a move that may go on too far behind the touch.
     std::expected<void, PlanError> next(const Block& block, const MachineConfig& machine,
-                                        std::span<const std::size_t> axes, std::span<const double> from_mm);
+                                        std::span<const AxisIndex> axes, std::span<const double> from_mm);
 
 private:
     std::optional<Probe> probe_;  // asked for

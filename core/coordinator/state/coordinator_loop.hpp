@@ -4,11 +4,11 @@
 
 #include <string>
 
-#include "core/axis_set.hpp"
 #include "core/coordinator/axes/axis_orders.hpp"
 #include "core/coordinator/axes/axis_roster.hpp"
 #include "core/coordinator/program/program_store.hpp"
 #include "core/coordinator/state/coordinator_io.hpp"
+#include "core/indices.hpp"
 #include "core/kinematics/kinematics.hpp"
 #include "core/machine.hpp"
 
@@ -36,7 +36,7 @@ struct LoopView {
         return plays;
     }
     /// How messages to people name a motor.
-    std::string label_of(std::size_t motor) const { return kinematics.label(motor); }
+    std::string label_of(MotorIndex motor) const { return kinematics.label(motor); }
 };
 
 /// The same, with the orders to axes and the loop's outputs.
@@ -45,13 +45,11 @@ struct CoordinatorLoop : LoopView {
     CoordinatorOutputs& out;
 
     void notice(const CoordinatorNotice& notice) { out.notices.push_back(notice); }
-    AxisCommand& order(std::size_t axis, AxisCommandKind kind) { return orders.give(axis, kind, term); }
-    void order_each(AxisSet which, AxisCommandKind kind) {
-        for (std::size_t i = 0; i < axes.size(); ++i) {
-            if (has_axis(which, i)) { (void)order(i, kind); }
-        }
+    AxisCommand& order(MotorIndex motor, AxisCommandKind kind) { return orders.give(motor, kind, term); }
+    void order_each(MotorSet motors, AxisCommandKind kind) {
+        for (const MotorIndex motor : motors) { (void)order(motor, kind); }
     }
-    bool is_order_done(std::size_t axis) const { return orders.is_done(axis, axes); }
+    bool is_order_done(MotorIndex motor) const { return orders.is_done(motor, axes); }
 };
 
 }  // namespace lockstep

@@ -35,9 +35,9 @@ CommandResult check_present(const LoopView& loop) {
 }
 
 CommandResult check_homed(const LoopView& loop) {
-    const auto axis = loop.axes.not_homed();
-    if (!axis) { return {}; }
-    return refuse(FaultCode::NotHomed, loop.label_of(*axis) + " is not homed");
+    const auto motor = loop.axes.not_homed();
+    if (!motor) { return {}; }
+    return refuse(FaultCode::NotHomed, loop.label_of(*motor) + " is not homed");
 }
 
 CommandResult check_square(const LoopView& loop) {
@@ -51,13 +51,13 @@ CommandResult check_square(const LoopView& loop) {
 CommandResult check_clocks(const LoopView& loop) {
     const MachineConfig& machine = loop.machine;
     const Ticks limit = machine.clock_error_to_begin();
-    const auto axis = loop.axes.uncertain(limit);
-    if (!axis) { return {}; }
+    const auto motor = loop.axes.uncertain(limit);
+    if (!motor) { return {}; }
     const auto us = [&](Ticks t) {
         return std::to_string(static_cast<std::int64_t>(Int128{t.value} * machine.tick_ns / 1000)) + " us";
     };
     return refuse(FaultCode::ClockUncertain,
-                  loop.label_of(*axis) + ": its clock error may be " + us(loop.axes.state(*axis)->clock_error) +
+                  loop.label_of(*motor) + ": its clock error may be " + us(loop.axes.state(*motor)->clock_error) +
                       ", and the limit to begin a motion is " + us(limit) + " (timing.clock_error_limit_us is " +
                       std::to_string(machine.timing.clock_error_limit_us) +
                       "); wait some seconds until the axis has measured the "
@@ -115,9 +115,9 @@ std::unexpected<Refusal> refuse_in_fault(FaultCode fault) {
     return refuse(FaultCode::InFault, text == nullptr ? what : what + ": " + remedy_text(*text));
 }
 
-std::unexpected<Refusal> refuse_without_device(std::size_t axis, const LoopView& loop) {
+std::unexpected<Refusal> refuse_without_device(MotorIndex motor, const LoopView& loop) {
     return refuse(FaultCode::DeviceMissing,
-                  loop.label_of(axis) + " waits for its device; the axis's log names the device");
+                  loop.label_of(motor) + " waits for its device; the axis's log names the device");
 }
 
 }  // namespace lockstep

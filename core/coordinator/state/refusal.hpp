@@ -37,6 +37,6 @@ CommandResult check_jogs_at_limits(const std::vector<JogAxis>& jogs, const LoopV
 /// Checks that no emergency stop is closed.
 CommandResult check_emergency_stops(const LoopView& loop);
 std::unexpected<Refusal> refuse_in_fault(FaultCode fault);
-std::unexpected<Refusal> refuse_without_device(std::size_t axis, const LoopView& loop);
+std::unexpected<Refusal> refuse_without_device(MotorIndex motor, const LoopView& loop);
 
 }  // namespace lockstep

@@ -14,15 +14,15 @@ constexpr double kSameRadius_steps = 1e-3;  // turns repeat if the radii of the 
 
 }  // namespace
 
-ArcSpoke arc_spoke(const PathSetup& setup, const ArcShape& shape, const AxisVector& at) {
+ArcSpoke arc_spoke(const PathSetup& setup, const ArcShape& shape, const PlaceVector& at) {
     const double x = at[shape.first] / setup.steps_per_mm[shape.first] - shape.centre_first_mm;
     const double y = at[shape.second] / setup.steps_per_mm[shape.second] - shape.centre_second_mm;
     return {ArcDirection::of(x, shape.is_clockwise ? -y : y), std::sqrt(x * x + y * y)};
 }
 
 double steps_per_mm_of_plane(const PathSetup& setup, const ArcShape& shape) {
-    const auto of_axis = [&](std::size_t axis) { return setup.steps_per_mm[axis] / setup.step_of_motors(axis); };
-    return std::max(of_axis(shape.first), of_axis(shape.second));
+    const auto of_axis = [&](AxisIndex axis) { return setup.steps_per_mm[axis] / setup.step_of_motors(axis); };
+    return std::max(of_axis(AxisIndex{shape.first}), of_axis(AxisIndex{shape.second}));
 }
 
 ArcCurve::ArcCurve(const PathSetup& setup, const ArcShape& shape, const ArcEnds& ends, double radius_begin_mm,
@@ -31,18 +31,18 @@ ArcCurve::ArcCurve(const PathSetup& setup, const ArcShape& shape, const ArcEnds&
       from_(ends.from),
       to_(ends.to),
       off_(ends.at),
-      moving_(axis_bit(shape.first) | axis_bit(shape.second)),
+      moving_{AxisIndex{shape.first}, AxisIndex{shape.second}},
       radius_begin_(radius_begin_mm),
       radius_end_(radius_end_mm),
       sweep_(sweep),
       scale_(steps_per_mm_of_plane(setup, shape)) {
     const double bent = std::max(radius_begin_, radius_end_) + 3 * std::abs(radius_end_ - radius_begin_) / sweep_;
     error_ = kPieceError * bent * scale_;
-    for (std::size_t i = 0; i < off_.size(); ++i) {
+    for (const AxisIndex i : axis_indices(off_.size())) {
         double& off = off_.begin()[i];
         off -= from_.begin()[i];
         is_off_ = is_off_ || off != 0;
-        if (off != 0 || to_.begin()[i] != from_.begin()[i]) { moving_ |= axis_bit(i); }
+        if (off != 0 || to_.begin()[i] != from_.begin()[i]) { moving_.insert(i); }
     }
 }
 
@@ -60,20 +60,21 @@ double ArcCurve::tolerance(double before, double share) const {
     return is_off_ ? std::min(kTolerance_steps, before / 2 + share / 8) : kTolerance_steps;
 }
 
-void ArcCurve::place(const PathSetup& setup, ArcDirection d, double done, AxisVector& at) const {
+void ArcCurve::place(const PathSetup& setup, ArcDirection d, double done, PlaceVector& at) const {
     const double share = done / sweep_;
     const double radius = radius_begin_ + (radius_end_ - radius_begin_) * share;
     const double y = shape_.is_clockwise ? -d.y : d.y;
-    each_of(moving_,
-            [&](std::size_t i) { at.begin()[i] = from_.begin()[i] + (to_.begin()[i] - from_.begin()[i]) * share; });
+    for (const AxisIndex i : moving_) {
+        at.begin()[i] = from_.begin()[i] + (to_.begin()[i] - from_.begin()[i]) * share;
+    }
     at[shape_.first] = (shape_.centre_first_mm + radius * d.x) * setup.steps_per_mm[shape_.first];
     at[shape_.second] = (shape_.centre_second_mm + radius * y) * setup.steps_per_mm[shape_.second];
-    each_of(moving_, [&](std::size_t i) {
+    for (const AxisIndex i : moving_) {
         double& place = at.begin()[i];
         if (is_off_) { place += off_.begin()[i] * (1 - share); }
         const TravelEnds travel = travel_ends_of(setup.limits_of_axis(i));
         place = std::clamp(place, travel.least, travel.greatest);
-    });
+    }
 }
 
 }  // namespace lockstep

@@ -9,9 +9,9 @@ namespace lockstep {
 
 /// The two begins and the end of an arc, in steps.
 struct ArcEnds {
-    AxisVector at;    // where the axes are: on whole steps after a rest
-    AxisVector from;  // the programmed begin of the arc
-    AxisVector to;
+    PlaceVector at;    // where the axes are: on whole steps after a rest
+    PlaceVector from;  // the programmed begin of the arc
+    PlaceVector to;
 };
 
 /// An end of an arc as seen from its centre.
@@ -19,7 +19,7 @@ struct ArcSpoke {
     ArcDirection direction;
     double radius_mm = 0;
 };
-ArcSpoke arc_spoke(const PathSetup& setup, const ArcShape& shape, const AxisVector& at);
+ArcSpoke arc_spoke(const PathSetup& setup, const ArcShape& shape, const PlaceVector& at);
 
 /// The most steps of a motor per mm of the arc's plane.
 double steps_per_mm_of_plane(const PathSetup& setup, const ArcShape& shape);
@@ -35,8 +35,8 @@ public:
     /// The axes that move along the arc.
     AxisSet moving() const { return moving_; }
     /// Sets the places of the moving axes, in the direction d from the centre and `done` rad behind the arc's begin.
-    void place(const PathSetup& setup, ArcDirection d, double done, AxisVector& at) const;
-    const AxisVector& end() const { return to_; }
+    void place(const PathSetup& setup, ArcDirection d, double done, PlaceVector& at) const;
+    const PlaceVector& end() const { return to_; }
     /// Each whole turn is like the one before it, shifted by a distance that is 0 for the plane's axes.
     bool repeats() const;
     /// Whether one piece is close enough to a part, `done` rad behind the arc's begin and `angle` long.
@@ -46,11 +46,11 @@ private:
     double tolerance(double before, double share) const;
 
     ArcShape shape_;
-    AxisVector from_;
-    AxisVector to_;
-    AxisVector off_;  // the place of the axes at the begin minus the programmed begin
+    PlaceVector from_;
+    PlaceVector to_;
+    PlaceVector off_;  // the place of the axes at the begin minus the programmed begin
     bool is_off_ = false;
-    AxisSet moving_ = 0;
+    AxisSet moving_;
     double radius_begin_ = 0;  // mm
     double radius_end_ = 0;    // mm
     double sweep_ = 0;         // rad

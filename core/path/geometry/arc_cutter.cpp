@@ -48,42 +48,42 @@ void ArcCutter::halve(const PathSetup& setup, const ArcPart& part, PathTrail& ou
         halve(setup, {middle, part.b, half, angle / 2, part.is_last}, out);
         return;
     }
-    AxisVector half_way = at_;
+    PlaceVector half_way = at_;
     curve_.place(setup, middle, half, half_way);
     if (part.is_last) { return add_piece(setup, half_way, curve_.end(), out); }
-    AxisVector end = at_;
+    PlaceVector end = at_;
     curve_.place(setup, part.b, part.done + angle, end);
     add_piece(setup, half_way, end, out);
 }
 
 /// The distance of two places on the arc.
-double ArcCutter::distance(const PathSetup& setup, const AxisVector& a, const AxisVector& b) const {
+double ArcCutter::distance(const PathSetup& setup, const PlaceVector& a, const PlaceVector& b) const {
     double square = 0;
-    each_of(curve_.moving(), [&](std::size_t i) {
+    for (const AxisIndex i : curve_.moving()) {
         const double mm = (b.begin()[i] - a.begin()[i]) / setup.steps_per_mm[i];
         square += mm * mm;
-    });
+    }
     return std::sqrt(square);
 }
 
 /// The length is the chord's plus the excess of the arc: 8/3 of the square of its height, divided by the chord.
-void ArcCutter::add_piece(const PathSetup& setup, const AxisVector& middle, const AxisVector& end, PathTrail& out) {
+void ArcCutter::add_piece(const PathSetup& setup, const PlaceVector& middle, const PlaceVector& end, PathTrail& out) {
     Quadratic piece;
     piece.feed_mm_per_tick = settings_.feed_mm_per_tick;
     piece.is_feed_fixed = settings_.is_feed_fixed;
     piece.most_mm_per_tick = settings_.most_mm_per_tick;
     piece.from = at_;
-    piece.slope = piece.bend = zeros(at_.size());
+    piece.slope = SlopeVector::zeros(at_.size());
+    piece.bend = BendVector::zeros(at_.size());
     const double chord = distance(setup, at_, end);
-    AxisVector& half_way = at_;
-    each_of(curve_.moving(),
-            [&](std::size_t i) { half_way.begin()[i] = (piece.from.begin()[i] + end.begin()[i]) / 2; });
+    PlaceVector& half_way = at_;
+    for (const AxisIndex i : curve_.moving()) { half_way.begin()[i] = (piece.from.begin()[i] + end.begin()[i]) / 2; }
     const double height = distance(setup, half_way, middle);
     piece.length = chord + 8 * height * height / (3 * chord);
-    each_of(curve_.moving(), [&](std::size_t i) {
+    for (const AxisIndex i : curve_.moving()) {
         piece.slope.begin()[i] = (end.begin()[i] - piece.from.begin()[i]) / piece.length;
         piece.bend.begin()[i] = -8 * (middle.begin()[i] - half_way.begin()[i]) / (piece.length * piece.length);
-    });
+    }
     piece.is_straight = false;
     keep_within_travel(setup, piece);
     at_ = end;

@@ -43,12 +43,12 @@ public:
 
 private:
     void halve(const PathSetup& setup, const ArcPart& part, PathTrail& out);
-    double distance(const PathSetup& setup, const AxisVector& a, const AxisVector& b) const;
-    void add_piece(const PathSetup& setup, const AxisVector& middle, const AxisVector& end, PathTrail& out);
+    double distance(const PathSetup& setup, const PlaceVector& a, const PlaceVector& b) const;
+    void add_piece(const PathSetup& setup, const PlaceVector& middle, const PlaceVector& end, PathTrail& out);
 
     ArcCurve curve_;
     ArcSweep sweep_;
-    AxisVector at_;  // where the next piece begins
+    PlaceVector at_;  // where the next piece begins
     MoveSettings settings_;
     std::uint32_t block_ = 0;
     double along_ = 0;  // mm of the arc before the next piece

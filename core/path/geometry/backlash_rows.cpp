@@ -12,15 +12,15 @@ constexpr double kHair_mm = 1e-9;   // a shorter part is none
 constexpr double kNearSide = 1e-3;  // steps: far more than the rounding of a rest
 
 /// The place of a motor's slide, in steps of the motor.
-double slide_at(const PathSetup& setup, std::size_t motor, const Quadratic& axes, double u) {
+double slide_at(const PathSetup& setup, MotorIndex motor, const Quadratic& axes, double u) {
     const Quadratic end = part_of(axes, u, axes.length);
     const double place = setup.motor_map.place(motor, end.from);
     const bool rests = (u == 0 && axes.begins_at_rest) || axes.length == 0;
     return rests ? std::round(place) : place;
 }
 
-AxisVector end_of(const Quadratic& axes) {
-    AxisVector end;
+PlaceVector end_of(const Quadratic& axes) {
+    PlaceVector end;
     for (std::size_t i = 0; i < axes.from.size(); ++i) { end.append(axes.place(i, axes.length)); }
     return end;
 }
@@ -38,7 +38,7 @@ void BacklashRows::restart(double begin_mm, std::span<const Position> motors) {
 void BacklashRows::find_sides(const PathSetup& setup, const Quadratic& axes) {
     sides_.assign(setup.motors(), {});
     if (at_.empty()) { return; }
-    for (std::size_t m = 0; m < sides_.size(); ++m) {
+    for (const MotorIndex m : motor_indices(sides_.size())) {
         const Backlash& backlash = setup.backlashes[m].backlash;
         if (backlash.is_none()) { continue; }
         const double slide = slide_at(setup, m, axes, std::min(begin_mm_, axes.length));
@@ -53,7 +53,7 @@ void BacklashRows::find_sides(const PathSetup& setup, const Quadratic& axes) {
 /// The places at which a motor with backlash turns, and the end of the piece.
 void BacklashRows::find_cuts(const PathSetup& setup, const Quadratic& axes) {
     cuts_.clear();
-    for (std::size_t m = 0; m < sides_.size(); ++m) {
+    for (const MotorIndex m : motor_indices(sides_.size())) {
         if (setup.backlashes[m].backlash.is_none()) { continue; }
         const double slope = setup.motor_map.shares().place(m, axes.slope);
         const double bend = setup.motor_map.shares().place(m, axes.bend);
@@ -99,9 +99,9 @@ void BacklashRows::add_part(const PathSetup& setup, const Quadratic& axes, doubl
     const bool is_passed = axes.length > 0 && begin >= to;
     before_ = sides_;
     bool takes_up = false;
-    for (std::size_t m = 0; m < sides_.size() && !is_passed; ++m) {
+    for (const MotorIndex m : motor_indices(sides_.size())) {
         const MotorBacklash& motor = setup.backlashes[m];
-        if (motor.backlash.is_none()) { continue; }
+        if (is_passed || motor.backlash.is_none()) { continue; }
         const double here = setup.motor_map.place(m, part_of(axes, begin, axes.length).from);
         const double there = axes.length == 0 ? here : setup.motor_map.place(m, end_of(part_of(axes, from, to)));
         takes_up = push(motor, sides_[m], here, there) || takes_up;
@@ -109,7 +109,7 @@ void BacklashRows::add_part(const PathSetup& setup, const Quadratic& axes, doubl
     const auto add = [&](double a, double b, const std::vector<Side>& sides) {
         const Quadratic part = a == 0 && b == axes.length ? axes : part_of(axes, a, b);
         Quadratic& rows = rows_.emplace_back(RowPieces(setup, part).next());
-        for (std::size_t m = 0; m < sides.size(); ++m) { rows.from[m] += sides[m].play; }
+        for (const MotorIndex m : motor_indices(sides.size())) { rows.from[m] += sides[m].play; }
     };
     if (takes_up && begin > from) {
         add(from, begin, before_);
@@ -122,22 +122,19 @@ void BacklashRows::add_part(const PathSetup& setup, const Quadratic& axes, doubl
 /// Inserts it before the last rows. The slowest motor takes as long as its speed demands; all begin and end together.
 void BacklashRows::add_take_up(const PathSetup& setup, const Quadratic& next, const std::vector<Side>& before) {
     Quadratic rows = next;
-    rows.slope = rows.bend = {};
-    for (std::size_t i = 0; i < rows.from.size(); ++i) {
-        rows.slope.append(0);
-        rows.bend.append(0);
-    }
+    rows.slope = SlopeVector::zeros(rows.from.size());
+    rows.bend = BendVector::zeros(rows.from.size());
     rows.is_straight = rows.is_feed_fixed = rows.is_aside = true;
     rows.begins_at_rest = rows.ends_at_rest = false;
     rows.length = 0;
     double ticks = 0;
-    for (std::size_t m = 0; m < sides_.size(); ++m) {
+    for (const MotorIndex m : motor_indices(sides_.size())) {
         const double way = std::abs(sides_[m].play - before[m].play);
         if (way == 0) { continue; }
         rows.length = std::max(rows.length, way / setup.backlashes[m].steps_per_mm);
         ticks = std::max(ticks, way / setup.backlashes[m].steps_per_tick);
     }
-    for (std::size_t m = 0; m < sides_.size(); ++m) {
+    for (const MotorIndex m : motor_indices(sides_.size())) {
         const double way = sides_[m].play - before[m].play;
         rows.from[m] -= way;
         rows.slope[m] = way / rows.length;

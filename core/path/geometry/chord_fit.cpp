@@ -9,7 +9,7 @@ constexpr double kStraightShare = 0.5;  // of the tolerance: a line within it is
 
 }  // namespace
 
-void ChordFit::begin(std::size_t first, const AxisVector& from) {
+void ChordFit::begin(std::size_t first, const PlaceVector& from) {
     first_ = first;
     from_ = from;
     summed_ = 0;
@@ -28,7 +28,7 @@ void ChordFit::extend(const SlidingVector<PathPoint>& points, std::size_t count)
         const double sixth = (u1 - u0) / 6;
         const std::size_t last = sums_.size() - 2 * axes;
         sums_.resize(sums_.size() + 2 * axes);
-        each_of(moving_, [&](std::size_t i) {
+        for (const AxisIndex i : moving_) {
             const double z0 = a.at.begin()[i] - from_.begin()[i];
             const double z1 = b.at.begin()[i] - from_.begin()[i];
             const double zm = 2 * (z0 + z1) * um;
@@ -36,7 +36,7 @@ void ChordFit::extend(const SlidingVector<PathPoint>& points, std::size_t count)
             const std::size_t here = before + 2 * axes;
             sums_[here] = sums_[before] + sixth * (z0 * u0 + zm + z1 * u1);
             sums_[here + 1] = sums_[before + 1] + sixth * (z0 * u0 * u0 + zm * um + z1 * u1 * u1);
-        });
+        }
     }
 }
 
@@ -44,19 +44,18 @@ void ChordFit::bend(std::size_t count, Quadratic& piece) const {
     const std::size_t axes = from_.size();
     const double length = piece.length;
     const double square = length * length;
-    each_of(moving_, [&](std::size_t i) {
+    for (const AxisIndex i : moving_) {
         const double m1 = sums_[2 * (count * axes + i)];
         const double m2 = sums_[2 * (count * axes + i) + 1];
         const double way = piece.slope[i] * length;
         piece.bend[i] = ((m2 - length * m1) / 2 + way * square * length / 24) * 120 / (square * square * length);
-    });
+    }
     piece.is_straight = false;
 }
 
 bool ChordFit::is_close(const SlidingVector<PathPoint>& points, std::size_t count,
                         std::span<const double> tolerance_steps, double share, const Quadratic& piece) const {
-    for (AxisSet axes = moving_; axes != 0; axes &= axes - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(axes));
+    for (const AxisIndex i : moving_) {
         const double most = share * tolerance_steps[i];
         double before = points[first_].at.begin()[i];
         double u0 = 0;
@@ -74,14 +73,14 @@ bool ChordFit::is_close(const SlidingVector<PathPoint>& points, std::size_t coun
     return true;
 }
 
-bool ChordFit::fit(const SlidingVector<PathPoint>& points, std::size_t count, const AxisVector& to,
+bool ChordFit::fit(const SlidingVector<PathPoint>& points, std::size_t count, const PlaceVector& to,
                    std::span<const double> tolerance_steps, AxisSet moving, Quadratic& piece) {
     moving_ = moving;
     piece.from = from_;
     piece.length = points[first_ + count].along - points[first_].along;
-    piece.slope = piece.bend = zeros(from_.size());
-    each_of(moving_,
-            [&](std::size_t i) { piece.slope.begin()[i] = (to.begin()[i] - from_.begin()[i]) / piece.length; });
+    piece.slope = SlopeVector::zeros(from_.size());
+    piece.bend = BendVector::zeros(from_.size());
+    for (const AxisIndex i : moving_) { piece.slope.begin()[i] = (to.begin()[i] - from_.begin()[i]) / piece.length; }
     piece.is_straight = true;
     if (count == 1) { return true; }
     if (is_close(points, count, tolerance_steps, kStraightShare, piece)) { return true; }

@@ -21,7 +21,7 @@ namespace lockstep {
 
 /// A vertex of a programmed polyline.
 struct PathPoint {
-    AxisVector at;            // steps
+    PlaceVector at;           // steps
     double along = 0;         // mm from the polyline's start
     MoveSettings settings;    // of the chord that ends here
     std::uint32_t block = 0;  // of the program, of the chord that ends here
@@ -33,12 +33,12 @@ struct PathPoint {
 class ChordFit {
 public:
     /// Begins a piece at the place `from` (steps), which replaces the point with index `first`.
-    void begin(std::size_t first, const AxisVector& from);
+    void begin(std::size_t first, const PlaceVector& from);
 
     /// Fits a piece over `count` chords that ends at `to`. Returns false if it deviates from the polyline by more than
     /// `tolerance_steps` of an axis, at a vertex or the middle of a chord. `moving`: at least the axes that do not have
     /// the same place at all points.
-    bool fit(const SlidingVector<PathPoint>& points, std::size_t count, const AxisVector& to,
+    bool fit(const SlidingVector<PathPoint>& points, std::size_t count, const PlaceVector& to,
              std::span<const double> tolerance_steps, AxisSet moving, Quadratic& piece);
 
 private:
@@ -49,8 +49,8 @@ private:
                   double share, const Quadratic& piece) const;
 
     std::size_t first_ = 0;
-    AxisVector from_;
-    AxisSet moving_ = 0;
+    PlaceVector from_;
+    AxisSet moving_;
     std::size_t summed_ = 0;    // chords in the sums
     std::vector<double> sums_;  // M1 and M2 of each axis up to each vertex; 0 before an axis moves
 };

@@ -14,19 +14,19 @@ constexpr double kMostShift = 0.95;  // of the tolerance
 
 }  // namespace
 
-void ChordJoiner::begin(const AxisVector& at) {
+void ChordJoiner::begin(const PlaceVector& at) {
     points_.clear();
     PathPoint first;  // not PathPoint{}, which would clear its unused room
     first.at = at;
     points_.push_back(first);
     end_ = start_at_ = at;
-    moving_ = 0;
+    moving_ = {};
     start_ = behind_ = ahead_ = scanned_ = needed_ = 0;
     measured_ = found_ = guess_ = 1;
     is_fit_begun_ = false;
 }
 
-void ChordJoiner::add(const AxisVector& to, const MoveSettings& settings, std::uint32_t block, PathTrail& out) {
+void ChordJoiner::add(const PlaceVector& to, const MoveSettings& settings, std::uint32_t block, PathTrail& out) {
     end_ = to;
     const double length = step_to(points_.back().at, to);
     if (length < kLeast_mm) { return; }
@@ -35,19 +35,19 @@ void ChordJoiner::add(const AxisVector& to, const MoveSettings& settings, std::u
 }
 
 /// The length of a chord in mm. Notes the axes that move.
-double ChordJoiner::step_to(const AxisVector& from, const AxisVector& to) {
-    for (std::size_t i = 0; i < to.size(); ++i) {
-        if (to.begin()[i] != from.begin()[i]) { moving_ |= axis_bit(i); }
+double ChordJoiner::step_to(const PlaceVector& from, const PlaceVector& to) {
+    for (const AxisIndex i : axis_indices(to.size())) {
+        if (to.begin()[i] != from.begin()[i]) { moving_.insert(i); }
     }
     double square = 0;
-    each_of(moving_, [&](std::size_t i) {
+    for (const AxisIndex i : moving_) {
         const double mm = (to.begin()[i] - from.begin()[i]) / setup_.steps_per_mm[i];
         square += mm * mm;
-    });
+    }
     return std::sqrt(square);
 }
 
-void ChordJoiner::finish(const AxisVector& end, PathTrail& out) {
+void ChordJoiner::finish(const PlaceVector& end, PathTrail& out) {
     const std::size_t last = points_.size() - 1;
     if (last > start_) {
         const double length = step_to(points_[last - 1].at, end);
@@ -104,19 +104,19 @@ void ChordJoiner::measure_deflections(bool is_end) {
 }
 
 double ChordJoiner::deflection_at(std::size_t k) const {
-    const AxisVector& a = points_[behind_].at;
-    const AxisVector& b = points_[k].at;
-    const AxisVector& c = points_[ahead_].at;
+    const PlaceVector& a = points_[behind_].at;
+    const PlaceVector& b = points_[k].at;
+    const PlaceVector& c = points_[ahead_].at;
     double dot = 0;
     double square0 = 0;
     double square1 = 0;
-    each_of(moving_, [&](std::size_t i) {
+    for (const AxisIndex i : moving_) {
         const double d0 = (b.begin()[i] - a.begin()[i]) / setup_.steps_per_mm[i];
         const double d1 = (c.begin()[i] - b.begin()[i]) / setup_.steps_per_mm[i];
         dot += d0 * d1;
         square0 += d0 * d0;
         square1 += d1 * d1;
-    });
+    }
     const double product = square0 * square1;
     return product > 0 ? 1 - dot / std::sqrt(product) : 2;
 }
@@ -157,7 +157,7 @@ ChordJoiner::Reach ChordJoiner::reach(bool is_end) {
 }
 
 bool ChordJoiner::try_chords(std::size_t chords, Quadratic& best) {
-    const AxisVector end = end_at(start_ + chords);
+    const PlaceVector end = end_at(start_ + chords);
     Quadratic piece;
     if (!fit_.fit(points_, chords, end, tolerance_steps_, moving_, piece)) { return false; }
     if (chords > 1 && !is_within_travel(piece)) { return false; }
@@ -168,8 +168,7 @@ bool ChordJoiner::try_chords(std::size_t chords, Quadratic& best) {
 
 /// A piece with a wide tolerance could lead out of the travel.
 bool ChordJoiner::is_within_travel(const Quadratic& piece) const {
-    for (AxisSet axes = moving_; axes != 0; axes &= axes - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(axes));
+    for (const AxisIndex i : moving_) {
         const double extreme = piece.bend[i] == 0 ? 0 : piece.length / 2 - piece.slope[i] / piece.bend[i];
         const TravelEnds travel = travel_ends_of(setup_.limits_of_axis(i));
         for (const double u : {std::clamp(extreme, 0.0, piece.length), piece.length}) {
@@ -209,9 +208,9 @@ std::size_t ChordJoiner::longest(const Reach& limit, Quadratic& best) {
 }
 
 /// The place of a piece's end at a vertex.
-AxisVector ChordJoiner::end_at(std::size_t k) const {
+PlaceVector ChordJoiner::end_at(std::size_t k) const {
     const PathPoint& point = points_[k];
-    AxisVector at = point.at;
+    PlaceVector at = point.at;
     if (k + 1 == points_.size() || point.is_corner) { return at; }
     const PathPoint& last = points_[k - 1];
     const PathPoint& next = points_[k + 1];
@@ -221,11 +220,11 @@ AxisVector ChordJoiner::end_at(std::size_t k) const {
     const double after = next.along - point.along;
     const double shift = kShift * std::min(before, after);
     double* const to = at.begin();
-    each_of(moving_, [&](std::size_t i) {
+    for (const AxisIndex i : moving_) {
         const double deflection = (next.at.begin()[i] - to[i]) / after - (to[i] - last.at.begin()[i]) / before;
         const double most = kMostShift * tolerance_steps_[i];
         to[i] += std::clamp(shift * deflection, -most, most);
-    });
+    }
     return at;
 }
 
@@ -233,7 +232,7 @@ void ChordJoiner::set_tolerance(const MoveSettings& settings) {
     if (settings.tolerance_mm == tolerance_mm_) { return; }
     tolerance_mm_ = settings.tolerance_mm;
     tolerance_steps_.clear();
-    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+    for (const AxisIndex i : axis_indices(setup_.axes())) {
         const double step = setup_.step_of_motors(i);
         const double whole = std::max(step, settings.tolerance_mm * setup_.steps_per_mm[i]);
         const double map_share = setup_.motor_map.is_linear() ? 0 : kMapShare;

@@ -25,15 +25,15 @@ public:
     explicit ChordJoiner(const PathSetup& setup) : setup_(setup) {}
 
     /// Begins a polyline at a place in steps. The previous one must have been finished.
-    void begin(const AxisVector& at);
+    void begin(const PlaceVector& at);
     /// Adds a chord to a place. Omits chords of less than kLeast_mm until they add up to that. Adds pieces to `out`,
     /// with a mark where each chord begins.
-    void add(const AxisVector& to, const MoveSettings& settings, std::uint32_t block, PathTrail& out);
+    void add(const PlaceVector& to, const MoveSettings& settings, std::uint32_t block, PathTrail& out);
     /// Ends the polyline and adds the remaining pieces. `end`, in steps, replaces its last point. The last chord is
     /// then a separate piece, so that the tolerance and the displacement of the end do not add up.
-    void finish(const AxisVector& end, PathTrail& out);
+    void finish(const PlaceVector& end, PathTrail& out);
     /// Where the last chord ends, in steps.
-    const AxisVector& at() const { return end_; }
+    const PlaceVector& at() const { return end_; }
 
     static constexpr double kLook_mm = 0.04;
     static constexpr double kLeast_mm = 1e-6;
@@ -57,21 +57,21 @@ private:
     std::size_t longest(const Reach& reach, Quadratic& best);
     bool try_chords(std::size_t chords, Quadratic& best);
     bool is_within_travel(const Quadratic& piece) const;
-    AxisVector end_at(std::size_t k) const;
-    double step_to(const AxisVector& from, const AxisVector& to);
+    PlaceVector end_at(std::size_t k) const;
+    double step_to(const PlaceVector& from, const PlaceVector& to);
     void set_tolerance(const MoveSettings& settings);
     void drop_passed();
 
     PathSetup setup_;
     SlidingVector<PathPoint> points_;
     ChordFit fit_;
-    AxisVector end_;
-    AxisSet moving_ = 0;                   // the axes that do not have the same place at all points
+    PlaceVector end_;
+    AxisSet moving_;                       // the axes that do not have the same place at all points
     double tolerance_mm_ = -1;             // of tolerance_steps_
     std::vector<double> tolerance_steps_;  // of the next piece
     std::size_t start_ = 0;                // the vertex at which the next piece begins
-    AxisVector start_at_;                  // and its place
-    AxisVector best_end_;                  // where the best piece that was found ends
+    PlaceVector start_at_;                 // and its place
+    PlaceVector best_end_;                 // where the best piece that was found ends
     bool is_fit_begun_ = false;            // for start_
     std::size_t measured_ = 1;             // the first vertex whose deflection is not measured yet
     std::size_t found_ = 1;                // the first vertex that is not classified yet: corner or not

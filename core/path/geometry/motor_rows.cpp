@@ -11,7 +11,8 @@ constexpr double kLeastPart_mm = 1e-3;   // of a part that ends at a knot
 constexpr double kMeasuredShare = 0.75;  // of kMapShare: between the places that are compared the distance is greater
 
 /// The rows of the axes are behind the motors'.
-void append_axes(AxisVector& rows, const AxisVector& axes) {
+template <typename Unit>
+void append_axes(UnitVector<Unit>& rows, const UnitVector<Unit>& axes) {
     for (const double value : axes) { rows.append(value); }
 }
 
@@ -42,7 +43,7 @@ Quadratic rows_of(const Quadratic& axes, std::size_t motors, WayOf way_of) {
     rows.from.clear();
     rows.slope.clear();
     rows.bend.clear();
-    for (std::size_t m = 0; m < motors; ++m) { append_motor(rows, way_of(m)); }
+    for (const MotorIndex m : motor_indices(motors)) { append_motor(rows, way_of(m)); }
     append_axes(rows.from, axes.from);
     append_axes(rows.slope, axes.slope);
     append_axes(rows.bend, axes.bend);
@@ -50,22 +51,22 @@ Quadratic rows_of(const Quadratic& axes, std::size_t motors, WayOf way_of) {
 }
 
 /// The place of the axes.
-AxisVector way_at(const Quadratic& axes, double u) {
-    AxisVector place;
+PlaceVector way_at(const Quadratic& axes, double u) {
+    PlaceVector place;
     for (std::size_t i = 0; i < axes.from.size(); ++i) { place.append(axes.place(i, u)); }
     return place;
 }
 
 /// The same, on whole steps if the machine rests there.
-AxisVector place_at(const Quadratic& axes, double u) {
-    AxisVector place = way_at(axes, u);
+PlaceVector place_at(const Quadratic& axes, double u) {
+    PlaceVector place = way_at(axes, u);
     const bool is_rest = axes.ends_at_rest && u == axes.length;
     for (double& steps : place) { steps = is_rest ? std::round(steps) : steps; }
     return place;
 }
 
-AxisVector slope_at(const Quadratic& axes, double u) {
-    AxisVector slope;
+SlopeVector slope_at(const Quadratic& axes, double u) {
+    SlopeVector slope;
     for (std::size_t i = 0; i < axes.slope.size(); ++i) { slope.append(axes.slope_at(i, u)); }
     return slope;
 }
@@ -86,7 +87,7 @@ Quadratic part_of(const Quadratic& axes, double from, double to) {
 namespace {
 
 /// The way of a motor whose slopes do not change over the piece.
-MotorWay straight_way(const MotorMap& map, std::size_t m, const Quadratic& axes) {
+MotorWay straight_way(const MotorMap& map, MotorIndex m, const Quadratic& axes) {
     return {.from = map.place(m, axes.from),
             .to = map.place(m, place_at(axes, axes.length)),
             .slope = map.slope(m, axes.from, axes.slope),
@@ -97,7 +98,7 @@ MotorWay straight_way(const MotorMap& map, std::size_t m, const Quadratic& axes)
 /// Between the ends it changes evenly, so that it bends no part of the piece.
 class RestOffset {
 public:
-    RestOffset(const MotorMap& map, std::size_t motor, const Quadratic& axes) {
+    RestOffset(const MotorMap& map, MotorIndex motor, const Quadratic& axes) {
         const auto to_whole = [&](double u) {
             return std::round(map.place(motor, place_at(axes, u))) - map.place(motor, way_at(axes, u));
         };
@@ -115,7 +116,7 @@ private:
 
 /// Two quadratics with the places and the slopes of a motor's way at both ends of a part.
 struct MotorCurve {
-    MotorCurve(const MotorMap& map, std::size_t motor, const Quadratic& axes, double a, double b)
+    MotorCurve(const MotorMap& map, MotorIndex motor, const Quadratic& axes, double a, double b)
         : half((b - a) / 2), offset(map, motor, axes) {
         from = map.place(motor, way_at(axes, a)) + offset.at(a);
         to = map.place(motor, way_at(axes, b)) + offset.at(b);
@@ -155,7 +156,7 @@ RowPieces::RowPieces(const PathSetup& setup, const Quadratic& axes) : setup_(set
 /// knots together, only the first one counts.
 std::vector<double> RowPieces::knots() const {
     std::vector<double> at;
-    for (std::size_t m = 0; m < setup_.motor_map.motors(); ++m) { add_knots(m, at); }
+    for (const MotorIndex m : motor_indices(setup_.motor_map.motors())) { add_knots(m, at); }
     std::ranges::sort(at);
     std::vector<double> knots;
     for (const double u : at) {
@@ -167,7 +168,7 @@ std::vector<double> RowPieces::knots() const {
 }
 
 /// The motor's way without its screw is from + slope u + bend u (u - length) / 2, as in Quadratic.
-void RowPieces::add_knots(std::size_t motor, std::vector<double>& at) const {
+void RowPieces::add_knots(MotorIndex motor, std::vector<double>& at) const {
     const Screw* const screw = setup_.motor_map.screw(motor);
     if (screw == nullptr) { return; }
     const LinearMap& shares = setup_.motor_map.shares();
@@ -207,11 +208,11 @@ void RowPieces::add_parts(double from, double to) {
 /// Compares the quadratics of a part with the curve in their middles and where they meet.
 bool RowPieces::is_close(double from, double to) const {
     const MotorMap& map = setup_.motor_map;
-    const auto is_near = [&](std::size_t m, const MotorCurve& curve, double u, double steps) {
+    const auto is_near = [&](MotorIndex m, const MotorCurve& curve, double u, double steps) {
         const double place = map.place(m, way_at(axes_, u)) + curve.offset.at(u);
         return std::abs(place - steps) <= kMeasuredShare * kMapShare;
     };
-    for (std::size_t m = 0; m < map.motors(); ++m) {
+    for (const MotorIndex m : motor_indices(map.motors())) {
         if (!map.is_curved(m)) { continue; }
         const MotorCurve curve(map, m, axes_, from, to);
         const double quarter = (to - from) / 4;
@@ -227,7 +228,7 @@ Quadratic RowPieces::next() {
     const std::size_t number = next_++;
     if (!cuts_.empty()) { return half(number); }
     const MotorMap& map = setup_.motor_map;
-    return rows_of(axes_, map.motors(), [&](std::size_t m) { return straight_way(map, m, axes_); });
+    return rows_of(axes_, map.motors(), [&](MotorIndex m) { return straight_way(map, m, axes_); });
 }
 
 Quadratic RowPieces::half(std::size_t number) const {
@@ -237,7 +238,7 @@ Quadratic RowPieces::half(std::size_t number) const {
     const bool is_first = number % 2 == 0;
     const double middle = (a + b) / 2;
     const Quadratic axes = is_first ? part_of(axes_, a, middle) : part_of(axes_, middle, b);
-    Quadratic rows = rows_of(axes, map.motors(), [&](std::size_t m) {
+    Quadratic rows = rows_of(axes, map.motors(), [&](MotorIndex m) {
         const MotorCurve curve(map, m, axes_, a, b);
         return is_first ? curve.first() : curve.second();
     });
@@ -247,18 +248,18 @@ Quadratic RowPieces::half(std::size_t number) const {
 
 MotorPositions motors_at_rest(const PathSetup& setup, std::span<const Position> at) {
     MotorPositions motors;
-    AxisVector axes;
+    PlaceVector axes;
     for (const Position& position : at) { axes.append(position.as_steps()); }
-    for (std::size_t m = 0; m < setup.motors(); ++m) {
+    for (const MotorIndex m : motor_indices(setup.motors())) {
         motors.append(setup.has_map() ? Position::steps(std::llround(setup.motor_map.place(m, axes))) : at[m]);
     }
     for (std::size_t board = 0; board < setup.boards; ++board) { motors.append(Position{}); }
     return motors;
 }
 
-bool are_motors_on_steps(const PathSetup& setup, const AxisVector& at) {
+bool are_motors_on_steps(const PathSetup& setup, const PlaceVector& at) {
     if (!setup.has_map()) { return true; }
-    for (std::size_t m = 0; m < setup.motors(); ++m) {
+    for (const MotorIndex m : motor_indices(setup.motors())) {
         const double steps = setup.motor_map.place(m, at);
         if (steps != std::round(steps)) { return false; }
     }

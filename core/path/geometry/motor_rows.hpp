@@ -25,7 +25,7 @@ public:
     Quadratic next();
 
 private:
-    void add_knots(std::size_t motor, std::vector<double>& at) const;
+    void add_knots(MotorIndex motor, std::vector<double>& at) const;
     std::vector<double> knots() const;
     void add_parts(double from, double to);
     bool is_close(double from, double to) const;
@@ -43,6 +43,6 @@ Quadratic part_of(const Quadratic& axes, double from, double to);
 /// Where the motors rest if the axes rest at `at`.
 MotorPositions motors_at_rest(const PathSetup& setup, std::span<const Position> at);
 /// Each motor is on a whole step while the axes are at `at`, which is on whole steps of theirs.
-bool are_motors_on_steps(const PathSetup& setup, const AxisVector& at);
+bool are_motors_on_steps(const PathSetup& setup, const PlaceVector& at);
 
 }  // namespace lockstep

@@ -18,7 +18,7 @@ void PathGeometry::begin(std::span<const Position> at) {
     joiner_.begin(at_);
 }
 
-void PathGeometry::line(const AxisVector& to, const MoveSettings& settings, std::uint32_t block) {
+void PathGeometry::line(const PlaceVector& to, const MoveSettings& settings, std::uint32_t block) {
     cut_to_end();
     programmed_ = to;
     at_ = setup_.within_travel(to);
@@ -26,7 +26,7 @@ void PathGeometry::line(const AxisVector& to, const MoveSettings& settings, std:
     settings.mode == PathMode::ExactStop ? rest(kLeastRest, block) : all_but_last_are_ready();
 }
 
-void PathGeometry::begin_arc(const ArcShape& shape, const AxisVector& to, const MoveSettings& settings,
+void PathGeometry::begin_arc(const ArcShape& shape, const PlaceVector& to, const MoveSettings& settings,
                              std::uint32_t block) {
     cut_to_end();
     joiner_.finish(at_, trail_);
@@ -55,7 +55,7 @@ void PathGeometry::end_arc() {
 void PathGeometry::rest(Ticks ticks, std::uint32_t block) {
     cut_to_end();
     come_to_rest();
-    Quadratic rest{.from = at_, .slope = zeros(at_.size()), .bend = zeros(at_.size())};
+    Quadratic rest{.from = at_, .slope = SlopeVector::zeros(at_.size()), .bend = BendVector::zeros(at_.size())};
     rest.rest = std::max(ticks, kLeastRest);
     trail_.add_rest(rest, block);
     ready_ = trail_.end();
@@ -70,7 +70,7 @@ void PathGeometry::finish() {
 /// Moves the end of the last piece to whole steps, by half a step at most. A piece that moves no axis then may still
 /// lead the motors to their whole steps.
 void PathGeometry::come_to_rest() {
-    AxisVector end = at_;
+    PlaceVector end = at_;
     for (double& steps : end) { steps = std::round(steps); }
     joiner_.finish(end, trail_);
     at_ = end;
@@ -80,7 +80,7 @@ void PathGeometry::come_to_rest() {
 }
 
 /// Moves the end of the last piece. Returns false if the piece begins at this place.
-bool PathGeometry::move_end(const AxisVector& end) {
+bool PathGeometry::move_end(const PlaceVector& end) {
     Quadratic& last = trail_.back();
     bool moves = false;
     for (std::size_t i = 0; i < end.size(); ++i) {

@@ -18,15 +18,15 @@ public:
     /// Begins a stream. The axes rest at `at`.
     void begin(std::span<const Position> at);
     /// Sets the programmed place at the begin, which is less than a step from the place of rest. Arcs need it.
-    void begin_program_at(const AxisVector& steps) { programmed_ = steps; }
+    void begin_program_at(const PlaceVector& steps) { programmed_ = steps; }
 
     /// The moves are as in PathPlanner. `to` is in steps. An arc that is not cut to its end is cut before the next
     /// move.
-    void line(const AxisVector& to, const MoveSettings& settings, std::uint32_t block);
+    void line(const PlaceVector& to, const MoveSettings& settings, std::uint32_t block);
     void rest(Ticks ticks, std::uint32_t block);
     void finish();
     /// Begins an arc. Call cut_on() while there are more pieces of it.
-    void begin_arc(const ArcShape& shape, const AxisVector& to, const MoveSettings& settings, std::uint32_t block);
+    void begin_arc(const ArcShape& shape, const PlaceVector& to, const MoveSettings& settings, std::uint32_t block);
     bool has_more() const { return !arc_.is_done(); }
     /// Adds the next quarter turn of the arc, or its rest.
     void cut_on();
@@ -50,7 +50,7 @@ private:
     void cut_to_end();
     void end_arc();
     void come_to_rest();
-    bool move_end(const AxisVector& end);
+    bool move_end(const PlaceVector& end);
     void all_but_last_are_ready();
 
     PathSetup setup_;
@@ -58,8 +58,8 @@ private:
     ArcCutter arc_;
     MoveSettings arc_settings_;
     PathTrail trail_;
-    AxisVector at_;          // where the last move ends, in steps; whole ones if the machine rests there
-    AxisVector programmed_;  // where it ends in the program, up to half a step beyond the travel
+    PlaceVector at_;          // where the last move ends, in steps; whole ones if the machine rests there
+    PlaceVector programmed_;  // where it ends in the program, up to half a step beyond the travel
     std::size_t ready_ = 0;
 };
 

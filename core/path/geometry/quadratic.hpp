@@ -15,9 +15,9 @@
 namespace lockstep {
 
 struct Quadratic {
-    AxisVector from;                         // steps
-    AxisVector slope;                        // of the chord, steps per mm
-    AxisVector bend;                         // steps per mm^2; curvature times scale
+    PlaceVector from;
+    SlopeVector slope;                       // of the chord
+    BendVector bend;                         // curvature times scale
     double length = 0;                       // mm; 0: a rest
     std::optional<double> feed_mm_per_tick;  // nullopt: as fast as the axes allow
     bool is_feed_fixed = false;              // the feed override has no effect
@@ -29,7 +29,7 @@ struct Quadratic {
     Ticks rest;             // duration if length is 0
     std::size_t piece = 0;  // the number of the piece of geometry in its stream
     double begin = 0;       // mm: rows may have several pieces for one piece of geometry, and this is where one begins
-    AxisSet moving = 0;     // those with a slope or a bend, as moving_rows() has found them
+    RowSet moving;          // those with a slope or a bend, as moving_rows() has found them
 
     /// The place on the geometry changes.
     bool moves_on() const { return length > 0 && !is_aside; }
@@ -39,10 +39,10 @@ struct Quadratic {
     double slope_at(std::size_t i, double u) const { return slope.begin()[i] + bend.begin()[i] * (u - length / 2); }
 };
 
-inline AxisSet moving_rows(const Quadratic& piece) {
-    AxisSet moving = 0;
-    for (std::size_t i = 0; i < piece.slope.size(); ++i) {
-        if (piece.slope.begin()[i] != 0 || piece.bend.begin()[i] != 0) { moving |= axis_bit(i); }
+inline RowSet moving_rows(const Quadratic& piece) {
+    RowSet moving;
+    for (const RowIndex i : row_indices(piece.slope.size())) {
+        if (piece.slope.begin()[i] != 0 || piece.bend.begin()[i] != 0) { moving.insert(i); }
     }
     return moving;
 }

@@ -30,7 +30,7 @@ inline void keep_within_travel(const PathSetup& setup, Quadratic& piece) {
         return 2 * root * root;
     };
     constexpr double kCertain = 2 - 1e-9;  // 2, with room for rounding
-    for (std::size_t i = 0; i < setup.axes(); ++i) {
+    for (const AxisIndex i : axis_indices(setup.axes())) {
         if (piece.bend[i] == 0) { continue; }
         const TravelEnds travel = travel_ends_of(setup.limits_of_axis(i));
         const double begin = piece.from[i];

@@ -28,24 +28,24 @@ void PathLoad::note_place(std::size_t axis, double place) {
 
 /// Notes the place where each axis turns back, if it does, and the end.
 void PathLoad::note_piece(const Quadratic& shape) {
-    each_of(shape.moving & all_axes(axes_.size()), [&](std::size_t i) {
+    for (const RowIndex i : shape.moving& RowSet::first(axes_.size())) {
         const double bend = shape.bend.begin()[i];
         const double slope = shape.slope.begin()[i];
         if (std::abs(bend) * shape.length > 2 * std::abs(slope)) {
             note_place(i, shape.place(i, shape.length / 2 - slope / bend));
         }
         note_place(i, shape.place(i, shape.length));
-    });
+    }
 }
 
 /// Notes the jumps where the next piece begins.
 void PathLoad::note_joint(const JoinedPiece& next, double v) {
     const Quadratic& shape = next.shape;
     const bool is_rest = shape.length == 0;
-    each_of(next.rows & all_axes(axes_.size()), [&](std::size_t i) {
+    for (const RowIndex i : next.rows& RowSet::first(axes_.size())) {
         note_jump(i, is_rest ? 0 : shape.slope_at(i, 0), v);
         slopes_[i] = is_rest ? 0 : shape.slope_at(i, shape.length);
-    });
+    }
 }
 
 void PathLoad::note_jump(std::size_t axis, double slope, double v) {
@@ -64,11 +64,11 @@ void PathLoad::pass(const PassedInterval& passed, bool is_first) {
 void PathLoad::note_straight(const PassedInterval& passed) {
     const double up = passed.top > passed.v0 ? passed.part.acceleration : 0;
     const double change = passed.top > passed.v1 ? std::max(up, passed.part.deceleration) : up;
-    each_of(passed.piece.shape.moving & all_axes(axes_.size()), [&](std::size_t i) {
+    for (const RowIndex i : passed.piece.shape.moving& RowSet::first(axes_.size())) {
         const double slope = std::abs(passed.piece.shape.slope.begin()[i]);
         raise(axes_[i].peak_velocity, slope * passed.top);
         raise(axes_[i].peak_acceleration, slope * change);
-    });
+    }
 }
 
 /// The accelerations at both ends of the interval, and at its middle with the bend that the joints charge
@@ -80,7 +80,7 @@ void PathLoad::note_curved(const PassedInterval& passed) {
     const double w0 = passed.v0 * passed.v0;
     const double w1 = passed.v1 * passed.v1;
     const double half_per_mm = 1 / (2 * d);
-    each_of(passed.piece.rows & all_axes(axes_.size()), [&](std::size_t i) {
+    for (const RowIndex i : passed.piece.rows& RowSet::first(axes_.size())) {
         const double slope = passed.piece.shape.slope_at(i, middle);
         const double bend = passed.piece.shape.bend.begin()[i] * d;
         const double begin = std::abs(slope - bend / 2) * passed.v0;
@@ -93,7 +93,7 @@ void PathLoad::note_curved(const PassedInterval& passed) {
             raise(change, std::abs(w1 * (slope + charged) - w0 * (slope - charged)));
         }
         raise(axes_[i].peak_acceleration, change * half_per_mm);
-    });
+    }
 }
 
 void PathLoad::end(double v) {

@@ -23,7 +23,7 @@ public:
         : machine_(machine), axis_(machine.axes[axis]), problems_(axis, "axis " + axis_.name + ": ") {}
 
     /// `motor`: its number. `block`: its number in the axis; nullopt: it has none.
-    void check(std::size_t motor, std::optional<std::size_t> block) {
+    void check(MotorIndex motor, std::optional<std::size_t> block) {
         const bool has_own = block && axis_.motors[*block].backlash;
         const std::optional<BacklashConfig>& backlash = has_own ? axis_.motors[*block].backlash : axis_.backlash;
         if (!backlash) { return; }

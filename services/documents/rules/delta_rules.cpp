@@ -17,7 +17,7 @@ constexpr double kMinRod_mm = 1;
 constexpr double kMostReach = 0.97;      // of the rod: it may lie this flat, where a carriage goes four times as fast
 constexpr double kLeastTriangle = 0.05;  // the sine of the least angle in the triangle of the towers
 
-const AxisConfig* axis_named(const MachineConfig& machine, const std::string& name) {
+const AxisConfig* config_of_axis(const MachineConfig& machine, const std::string& name) {
     const auto found = std::ranges::find(machine.axes, name, &AxisConfig::name);
     return found == machine.axes.end() ? nullptr : &*found;
 }
@@ -60,7 +60,7 @@ private:
             {{"x", &delta_.x}, {"y", &delta_.y}, {"z", &delta_.z}}};
         for (const auto& [key, name] : axes) {
             const std::string at = fmt::format("kinematics.delta.{}", key);
-            const AxisConfig* axis = axis_named(machine_, *name);
+            const AxisConfig* axis = config_of_axis(machine_, *name);
             problems_.require(axis != nullptr, at,
                               fmt::format("{} is \"{}\"; it must be one of the machine's axes: {}", at, *name,
                                           fmt::join(machine_.axis_names(), ", ")));
@@ -131,9 +131,9 @@ private:
 
     /// The motors home together, so the keys that say when and how must agree.
     void check_homing() {
-        const HomingConfig& z = axis_named(machine_, delta_.z)->homing;
+        const HomingConfig& z = config_of_axis(machine_, delta_.z)->homing;
         for (const std::string& name : {delta_.x, delta_.y}) {
-            const AxisConfig& axis = *axis_named(machine_, name);
+            const AxisConfig& axis = *config_of_axis(machine_, name);
             problems_.require(axis.homing.sequence == z.sequence, key_of(axis) + "homing.sequence",
                               fmt::format("homing.sequence of axis {} is {}, and that of {} is {}; the axes of a delta "
                                           "home together: give them the same number",
@@ -166,7 +166,7 @@ private:
 
     /// How far the carriage goes beyond its switch, and how far this is behind the limit switch.
     void check_switch(const MotorConfig& motor, double beyond_mm, double behind_limit_mm) {
-        const AxisConfig& z = *axis_named(machine_, delta_.z);
+        const AxisConfig& z = *config_of_axis(machine_, delta_.z);
         problems_.require(
             beyond_mm <= 0, key_of(z) + "homing.switch_position_mm",
             fmt::format("homing.switch_position_mm of {} is {}: at the edge of the travel the carriage of "
@@ -183,7 +183,7 @@ private:
     std::string key_of(const AxisConfig& axis) const { return fmt::format("axis[{}].", &axis - machine_.axes.data()); }
 
     std::string motor_of(const std::string& axis_name) const {
-        const AxisConfig& axis = *axis_named(machine_, axis_name);
+        const AxisConfig& axis = *config_of_axis(machine_, axis_name);
         return axis.motors.empty() ? axis.name : axis.motors.front().name;
     }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <iterator>
 #include <optional>
 #include <vector>
@@ -17,12 +16,15 @@ namespace lockstep {
 template <typename Rules>
 std::vector<Problem> problems_of_motors(const MachineConfig& machine) {
     std::vector<Problem> found;
-    std::size_t motor = 0;
-    for (std::size_t axis = 0; axis < machine.axes.size(); ++axis) {
+    MotorIndex motor;
+    for (const AxisIndex axis : axis_indices(machine.axes.size())) {
         Rules rules(machine, axis);
         const std::size_t blocks = machine.axes[axis].motors.size();
-        if (blocks == 0) { rules.check(motor++, std::nullopt); }
-        for (std::size_t k = 0; k < blocks; ++k) { rules.check(motor++, k); }
+        if (blocks == 0) {
+            rules.check(motor, std::nullopt);
+            ++motor;
+        }
+        for (std::size_t k = 0; k < blocks; ++k, ++motor) { rules.check(motor, k); }
         std::ranges::move(rules.take(), std::back_inserter(found));
     }
     return found;

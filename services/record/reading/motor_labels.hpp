@@ -13,7 +13,7 @@ class MotorLabels {
 public:
     /// The machine of the record is known.
     void add(const Kinematics& kinematics) {
-        for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+        for (const MotorIndex m : motor_indices(kinematics.motors().size())) {
             labels_[kinematics.motors()[m].name] = kinematics.label(m);
         }
     }

@@ -15,18 +15,19 @@ namespace lockstep {
 namespace {
 
 /// An axis's partition is PREFIX/NUMBER.
-std::optional<std::uint32_t> axis_in(std::string_view partition, std::string_view prefix) {
+std::optional<MotorIndex> motor_in(std::string_view partition, std::string_view prefix) {
     if (!partition.starts_with(prefix) || !partition.substr(prefix.size()).starts_with('/')) { return std::nullopt; }
-    return parse_number<std::uint32_t>(partition.substr(prefix.size() + 1));
+    const auto number = parse_number<std::uint32_t>(partition.substr(prefix.size() + 1));
+    return number ? std::optional(MotorIndex{*number}) : std::nullopt;
 }
 
 /// Returns the process of a writer; nullopt if it writes neither the machine's state nor an axis's.
 std::optional<PresentProcess> process_of(const dds_builtintopic_endpoint_t& writer, const std::string& machine) {
     const std::string topic = writer.topic_name;
     const std::string partition = only_partition(writer.qos);
-    PresentProcess process{.axis = axis_in(partition, machine)};
+    PresentProcess process{.motor = motor_in(partition, machine)};
     const bool is_coordinator = partition == machine && topic == Topic<MachineState>::kSpec.name;
-    if (!is_coordinator && !(process.axis && topic == Topic<AxisState>::kSpec.name)) { return std::nullopt; }
+    if (!is_coordinator && !(process.motor && topic == Topic<AxisState>::kSpec.name)) { return std::nullopt; }
     std::istringstream(user_data(writer.qos)) >> process.host >> process.pid;
     return process;
 }

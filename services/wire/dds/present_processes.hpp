@@ -12,9 +12,9 @@
 namespace lockstep {
 
 struct PresentProcess {
-    std::optional<std::uint32_t> axis;  // nullopt: a coordinator
-    std::string host;                   // its host name in the kernel; empty if not announced
-    std::int64_t pid = 0;               // process id on that host
+    std::optional<MotorIndex> motor;  // nullopt: a coordinator
+    std::string host;                 // its host name in the kernel; empty if not announced
+    std::int64_t pid = 0;             // process id on that host
 };
 
 /// Makes a writer announce its process. Only readers that may read the writer receive this.

@@ -29,13 +29,13 @@ bool fits(std::int32_t number) {
 std::int64_t utime_of(Tick machine, std::int64_t tick_ns) { return machine.value * tick_ns / 1000; }
 
 axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state, RecordNumber number) {
-    const double steps_per_mm = motor_steps_per_mm(machine, state.axis);
+    const double steps_per_mm = motor_steps_per_mm(machine, state.motor());
     const double steps_per_s = state.velocity.steps_per_tick() * machine.ticks_per_second();
     axis_position_t out{};
     out.utime = utime_of(state.tick, machine.tick_ns);
     out.tick = state.tick.value;
     out.machine = machine.name;
-    out.axis = motor_name(machine, state.axis);
+    out.axis = motor_name(machine, state.motor());
     out.incarnation = bits(number.incarnation);
     out.sequence = bits(number.sequence);
     out.position_steps = state.position.count();
@@ -55,7 +55,7 @@ axis_health_t to_lcm(const MachineConfig& machine, const AxisHealth& health, Rec
     out.utime = utime_of(health.tick, machine.tick_ns);
     out.tick = health.tick.value;
     out.machine = machine.name;
-    out.axis = motor_name(machine, health.axis);
+    out.axis = motor_name(machine, MotorIndex{health.axis});
     out.incarnation = bits(number.incarnation);
     out.sequence = bits(number.sequence);
     out.steps_compared = bits(health.step_lateness.count);

@@ -21,7 +21,7 @@ CommandMessage to_wire(const Command& command) {
     wire = {.client = command.client,
             .sequence_number = command.sequence,
             .kind = static_cast<lockstep_wire_CommandKind>(command.kind),
-            .axes = command.axes,
+            .axes = command.axes.bits(),
             .program = command.program,
             .ticks = command.ticks.value_or(Ticks{}).value,
             .feed_percent = static_cast<std::uint16_t>(command.feed_percent.value_or(0)),
@@ -35,8 +35,9 @@ CommandMessage to_wire(const Command& command) {
     write_text(command.writer.name, wire.writer_name);
     write_text(command.writer.host, wire.writer_host);
     for (const JogAxis& jog : command.jogs) {
-        message.jog_storage.push_back(
-            {.axis = jog.axis, .speed_mm_s = jog.speed_mm_s, .distance_mm = jog.distance_mm.value_or(0)});
+        message.jog_storage.push_back({.axis = static_cast<std::uint32_t>(jog.axis),
+                                       .speed_mm_s = jog.speed_mm_s,
+                                       .distance_mm = jog.distance_mm.value_or(0)});
     }
     const auto size = static_cast<std::uint32_t>(message.jog_storage.size());
     wire.jogs = {._maximum = size, ._length = size, ._buffer = message.jog_storage.data(), ._release = false};
@@ -56,13 +57,13 @@ FromWire<Command> from_wire(const lockstep_wire_Command& wire) {
         check.within<std::size_t>("a jog's axis", jog.axis, 0, kMaxAxes - 1);
         check.finite("a jog's speed_mm_s", jog.speed_mm_s);
         check.finite("a jog's distance_mm", jog.distance_mm);
-        jogs.push_back({jog.axis, jog.speed_mm_s, if_positive(jog.distance_mm)});
+        jogs.push_back({AxisIndex{jog.axis}, jog.speed_mm_s, if_positive(jog.distance_mm)});
     }
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     return Command{.client = wire.client,
                    .sequence = wire.sequence_number,
                    .kind = kind,
-                   .axes = wire.axes,
+                   .axes = AxisSet::of_bits(wire.axes),
                    .program = wire.program,
                    .ticks = if_positive(Ticks{wire.ticks}),
                    .feed_percent = if_positive(wire.feed_percent),

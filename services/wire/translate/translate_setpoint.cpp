@@ -205,7 +205,7 @@ void check_touch(const lockstep_wire_Setpoint& wire, Checks& check) {
 void read_touch(const lockstep_wire_Setpoint& wire, TouchInputs& touch) {
     touch.any_of.clear();
     for (std::size_t i = 0; i < wire.touch_motor._length; ++i) {
-        touch.any_of.append({wire.touch_motor._buffer[i], wire.touch_channel._buffer[i]});
+        touch.any_of.append({MotorIndex{wire.touch_motor._buffer[i]}, wire.touch_channel._buffer[i]});
     }
     touch.opens = wire.touch_opens;
 }

@@ -71,7 +71,7 @@ void Geometry(benchmark::State& state) {
     for (auto _ : state) {
         PathTrail trail;
         ChordJoiner joiner(setup);
-        joiner.begin(zeros(3));
+        joiner.begin(PlaceVector::zeros(3));
         for (const auto& place : places) {
             joiner.add(setup.to_steps(place), kSettings, 1, trail);
             benchmark::DoNotOptimize(trail.end());
@@ -89,7 +89,7 @@ void LookAhead(benchmark::State& state) {
         PathTrail trail;
         ChordJoiner joiner(setup);
         SpeedWindow window(setup);
-        joiner.begin(zeros(3));
+        joiner.begin(PlaceVector::zeros(3));
         for (const auto& place : places) {
             joiner.add(setup.to_steps(place), kSettings, 1, trail);
             for (std::size_t k = trail.first(); k < trail.end(); ++k) { window.add(trail.piece(k)); }

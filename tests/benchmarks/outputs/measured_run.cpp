@@ -36,11 +36,11 @@ public:
 
     explicit Meter(const FrameBytes& frame_bytes) : frame_bytes_(frame_bytes) {}
 
-    void on_step(std::size_t /*axis*/, StepEdge /*step*/) override { ++figures.steps; }
-    void on_channel(std::size_t /*axis*/, const ChannelEvent& event) override {
+    void on_step(MotorIndex /*axis*/, StepEdge /*step*/) override { ++figures.steps; }
+    void on_channel(MotorIndex /*axis*/, const ChannelEvent& event) override {
         figures.changes += event.kind == ChannelEvent::Kind::Input ? 0 : 1;
     }
-    void on_axis(std::size_t /*axis*/, Tick /*now*/, const AxisOutputs& /*out*/, AxisNode& /*node*/) override {
+    void on_axis(MotorIndex /*axis*/, Tick /*now*/, const AxisOutputs& /*out*/, AxisNode& /*node*/) override {
         ran = Ran::Motor;
     }
     void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& out) override {
@@ -73,7 +73,7 @@ public:
     RunFigures job(const Program& program) {
         vm_.give_program(1, program);
         const std::uint64_t before = vm_.state()->job;
-        (void)vm_.command(CommandKind::Run, 0, 1);
+        (void)vm_.command(CommandKind::Run, {}, 1);
         meter_.figures = {};
         sink_.bytes = 0;
         const Tick begun = vm_.now();

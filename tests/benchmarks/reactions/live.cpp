@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    const AxisState& state() const { return session_.received().axis(0)->state; }
+    const AxisState& state() const { return session_.received().axis(AxisIndex{0})->state; }
     double speed() const {
         const double per_tick = std::abs(state().velocity.steps_per_tick());
         return per_tick * session_.config().ticks_per_second() / session_.config().axes[0].steps_per_mm;

@@ -14,7 +14,7 @@ namespace lockstep {
 /// The pulses of the axis that moves, X.
 class Pulses : public VirtualObserver {
 public:
-    void on_step(std::size_t axis, StepEdge step) override {
+    void on_step(MotorIndex axis, StepEdge step) override {
         if (axis == 0) { ticks.push_back(step.tick); }
     }
     std::vector<Tick> ticks;
@@ -44,7 +44,7 @@ public:
     /// The same as a move of the axis on its own, as fast as possible.
     void move_own() { give(CommandKind::MoveOwn, 0); }
     /// Jogs in positive direction while client() renews the jog.
-    void jog() { client_.press({{.axis = 0, .speed_mm_s = kFeed_mm_s}}); }
+    void jog() { client_.press({{.axis = AxisIndex{0}, .speed_mm_s = kFeed_mm_s}}); }
     Jogger& client() { return client_; }
     void wait(Ticks time) {
         if (client_.is_alive()) { return pass(vm_, {&client_}, time); }
@@ -76,7 +76,7 @@ private:
         const ProgramMove line{{axis.position_max_mm - 5}, feed_mm_s, feed_mm_s == 0};
         vm_.give_program(
             1, {.name = "line", .axes = {axis.name}, .start_mm = {axis.homing.park_mm}, .blocks = {{1, line}}});
-        (void)vm_.command(kind, 0, 1);
+        (void)vm_.command(kind, {}, 1);
     }
     bool reaches(MachinePhase phase, Ticks limit) {
         return vm_.advance_until([&] { return vm_.state() && vm_.state()->phase == phase; }, limit);

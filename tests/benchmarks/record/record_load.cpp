@@ -46,7 +46,7 @@ int run(const Load& load, const MachineConfig& machine, std::size_t axis) {
     const Tick end = start + Ticks{static_cast<std::int64_t>(load.seconds * machine.ticks_per_second())};
     Motor motor(start + Ticks{1}, {static_cast<std::int64_t>(machine.ticks_per_second()) / load.rate});
     auto sink = open_record(machine, load.axis, true);
-    AxisRecorder recorder(machine, axis, static_cast<Identity>(monotonic_now().count()), *sink);
+    AxisRecorder recorder(machine, MotorIndex{axis}, static_cast<Identity>(monotonic_now().count()), *sink);
 
     StopSignal stop;
     PeriodicLoop periodic(loop_period(machine));

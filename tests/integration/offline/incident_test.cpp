@@ -33,8 +33,9 @@ class AnalyzeIncident : public testing::Test {
 protected:
     /// A limit was hit, the machine was reset, and an emergency stop was commanded 3 s after the limit.
     AnalyzeIncident() {
-        note(10, FlightKind::Fault, 0, FaultCode::LimitHit, flight_axis(1));
-        note(10, FlightKind::Incident, static_cast<std::uint8_t>(IncidentReason::Fault), {}, flight_axis(1));
+        note(10, FlightKind::Fault, 0, FaultCode::LimitHit, flight_axis(MotorIndex{1}));
+        note(10, FlightKind::Incident, static_cast<std::uint8_t>(IncidentReason::Fault), {},
+             flight_axis(MotorIndex{1}));
         note(10.1, FlightKind::Phase, static_cast<std::uint8_t>(MachinePhase::Fault));
         note(11, FlightKind::CommandReceived, static_cast<std::uint8_t>(CommandKind::Reset));
         note(11.1, FlightKind::Phase, static_cast<std::uint8_t>(MachinePhase::Idle));

@@ -141,7 +141,7 @@ private:
         const auto asked = requests();
         const Tick own{now * kSlotTicks + whole(0, 400)};
         const AxisOutputs& out = node_.step(own, {sent, {}, received, ordered, asked, {}}, on_step_);
-        published_.on_axis(0, own, out, node_);
+        published_.on_axis(MotorIndex{0}, own, out, node_);
         if (out.state) { state_ = *out.state; }
         const auto health = meter_.report(Ticks{3}, {});
         if (!health) { return; }
@@ -155,9 +155,9 @@ private:
     std::mt19937_64 random_;
     MachineConfig machine_;
     Term owner_{1, 5};
-    AxisNode node_{{0, machine_, 7, 1},
+    AxisNode node_{{MotorIndex{0}, machine_, 7, 1},
                    [this](Tick now) { return simulated_port(machine_, motors_of(machine_)[0], now); }};
-    HealthMeter meter_{0, 7, 1000};
+    HealthMeter meter_{MotorIndex{0}, 7, 1000};
     AxisState state_;
     AxisCommand order_;
     std::uint64_t sequence_ = 0;

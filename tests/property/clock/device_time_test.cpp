@@ -41,7 +41,7 @@ public:
     explicit LoadedFrames(std::uint64_t seed) : clocks_(seed) {
         machine_.timing.time_source = TimeSource::Network;
         machine_.axes = {screw()};
-        time_.emplace(0, machine_);
+        time_.emplace(MotorIndex{0}, machine_);
     }
 
     void begin() {
@@ -102,7 +102,7 @@ TEST(DeviceTime, IsRightAgainAfterTheClockWasSetBackWhileTheDeviceStoodStill) {
     MachineConfig machine;
     machine.timing.time_source = TimeSource::Network;
     machine.axes = {screw()};
-    DeviceTime time(0, machine);
+    DeviceTime time(MotorIndex{0}, machine);
     Tick now;  // machine time
     Ticks own_ahead{4'000'000};
     Tick shown{12'345};
@@ -154,7 +154,7 @@ TEST(DeviceTime, OfClocksThatGoAlikeTheRateIsNoneAndTheyPassTheSameTime) {
     MachineConfig machine;
     machine.timing.time_source = TimeSource::Network;
     machine.axes = {screw()};
-    DeviceTime time(0, machine);
+    DeviceTime time(MotorIndex{0}, machine);
     for (Tick now{500}; now < Tick{1'000'000}; now += Ticks{500}) {
         time.clocks().take({now - Ticks{200}, now - Ticks{100}, now - Ticks{100}, now});
         (void)time.clocks().look(now, shown_at_once(now, now + kAhead), true);
@@ -189,7 +189,7 @@ public:
         machine_.timing.time_source = source;
         machine_.axes = {screw()};
         machine_.axes[0].device = {DeviceName::Kind::Mapped, "/dev/late"};
-        time_.emplace(0, machine_);
+        time_.emplace(MotorIndex{0}, machine_);
     }
 
     /// Asks, and gets the answer after 0.1 to 5 ms, in which the loop runs without one. Returns whether the answer

@@ -140,7 +140,7 @@ public:
 
     /// Runs a random move frame by frame. The tail follows a random frame.
     void run() {
-        const AxisLimits planned = frame_limits_of(machine_, 0);
+        const AxisLimits planned = frame_limits_of(machine_, MotorIndex{0});
         const Ticks frame{random_.ticks(2000, 230'000)};
         FramePace pace(frame, limits());
         std::vector<Piece> pieces = random_move(random_, planned);

@@ -94,7 +94,7 @@ private:
     }
     Program draw_program() {
         Program program{.name = "drawn", .axes = machine_.axis_names()};
-        for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
+        for (const AxisIndex i : axis_indices(machine_.axes.size())) {
             const double start_mm = static_cast<double>(axes_.count(i)) / machine_.axes[i].steps_per_mm;
             program.start_mm.push_back(one_of(30) ? 1 : start_mm);
         }
@@ -116,14 +116,14 @@ private:
     }
     Command draw_command() {
         Command command{.client = 1 + random_() % 2, .sequence = ++sequence_, .kind = draw_kind()};
-        command.axes = one_of(5) ? random_() % 8 : 0;
+        command.axes = AxisSet::of_bits(one_of(5) ? random_() % 8 : 0);
         command.program = one_of(20) ? 1 : sequence_;
         const Program program = draw_program();
         for (const Process& process : processes_) { process.coordinator->programs().accept(sequence_, program); }
         if (one_of(3)) { command.ticks = Ticks{static_cast<std::int64_t>(random_() % 3'000'000)}; }
         if (one_of(2)) { command.feed_percent = static_cast<int>(5 + random_() % 200); }
         if (one_of(2)) { command.rapid_percent = static_cast<int>(5 + random_() % 100); }
-        for (std::uint32_t i = 0; i < machine_.axes.size(); ++i) {
+        for (const AxisIndex i : axis_indices(machine_.axes.size())) {
             if (one_of(2)) { command.jogs.push_back({i, place() * 6, one_of(2) ? std::optional(2.0) : std::nullopt}); }
         }
         command.writer = {.id = one_of(20) ? 2U : 1U, .name = "anna", .host = "bench"};

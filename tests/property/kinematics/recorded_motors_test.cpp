@@ -51,11 +51,11 @@ void record_motors(RecordedText& text, const MachineConfig& machine) {
 
 void record_axes(RecordedText& text, const Kinematics& kinematics) {
     text.line(kinematics.is_direct());
-    for (std::size_t i = 0; i < kinematics.axes(); ++i) {
+    for (const AxisIndex i : axis_indices(kinematics.axes())) {
         text.line(kinematics.rest_steps(i), kinematics.step_mm(i), kinematics.own_motor(i),
-                  kinematics.motors_of_axes(AxisSet{1} << i), motors_needed_for(i, kinematics));
+                  kinematics.motors_of_axes({i}), motors_needed_for(i, kinematics));
     }
-    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+    for (const MotorIndex m : motor_indices(kinematics.motors().size())) {
         text.line(kinematics.label(m), kinematics.is_named_as_axis(m), kinematics.axes_of_motor(m),
                   kinematics.corrects_screw(m));
     }
@@ -82,7 +82,7 @@ std::vector<AxisState> draw_states(Draw& draw, const MotorCounts& motors) {
         state.fault = draw.chance(0.1) ? FaultCode::LimitHit : FaultCode::None;
         state.switches = {draw.chance(0.1), draw.chance(0.1), draw.chance(0.1)};
         const bool backward = draw.chance(0.5);
-        state.position = rest_position(motors[m] + draw.whole(-1, 1), backward);
+        state.position = rest_position(motors.steps[m] + draw.whole(-1, 1), backward);
         state.velocity.raw = draw.whole(-1'000'000, 1'000'000) << 24;
         state.tick = Tick{draw.whole(1000, 2000)};
         states.push_back(state);
@@ -93,7 +93,7 @@ std::vector<AxisState> draw_states(Draw& draw, const MotorCounts& motors) {
 void record_states(RecordedText& text, const Kinematics& kinematics, const std::vector<AxisState>& states) {
     std::vector<const AxisState*> of;
     for (const AxisState& state : states) { of.push_back(&state); }
-    for (std::size_t i = 0; i < kinematics.axes(); ++i) {
+    for (const AxisIndex i : axis_indices(kinematics.axes())) {
         const auto state = axis_state_of(i, kinematics, of);
         text.line(state.has_value(), axis_speed_of(i, kinematics, of));
         if (!state) { continue; }

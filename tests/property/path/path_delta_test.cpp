@@ -84,7 +84,9 @@ DrawnDelta draw_delta(std::uint64_t seed) {
         delta.setup.limits.push_back(motor);
     }
     const auto scale = [&](std::size_t i) { return grid[i].steps_per_mm; };
-    MachineDelta machine{.map = map, .axes = {0, 1, 2}, .motors = {0, 1, 2}};
+    MachineDelta machine{.map = map,
+                         .axes = {AxisIndex{0}, AxisIndex{1}, AxisIndex{2}},
+                         .motors = {MotorIndex{0}, MotorIndex{1}, MotorIndex{2}}};
     machine.axis_steps_per_mm = {scale(0), scale(1), scale(2)};
     machine.motor_steps_per_mm = {delta.steps_per_mm, delta.steps_per_mm, delta.steps_per_mm};
     delta.setup.use_map(MotorMap(shares, machine), delta.of_axes);
@@ -160,7 +162,7 @@ std::span<const Piece> pieces_of(const AxisTrack& track, bool is_tail) {
 
 Place axes_at(const DrawnDelta& delta, const std::vector<Position>& motors) {
     Place axes;
-    for (std::size_t i = 0; i < delta.setup.axes(); ++i) {
+    for (const AxisIndex i : axis_indices(delta.setup.axes())) {
         axes.push_back(
             delta.setup.motor_map.axis_by_joints(i, [&](std::size_t joint) { return motors[joint].as_steps(); }));
     }
@@ -212,7 +214,7 @@ struct AxisWatch {
     void look(const PathSetup& setup, const std::array<Place, 3>& places, const Place& steps, Ticks duration) {
         double way = 0;
         double hardest_path = std::numeric_limits<double>::infinity();  // of the piece, per tick^2
-        for (std::size_t i = 0; i < setup.axes(); ++i) {
+        for (const AxisIndex i : axis_indices(setup.axes())) {
             const double of_axis = std::abs(places[2][i] - places[0][i]);
             way = std::max(way, of_axis / setup.step_of_motors(i));
             hardest_path = std::min(hardest_path, hardest_of(setup, i) / of_axis);
@@ -221,7 +223,7 @@ struct AxisWatch {
         ++seen;
         const auto ticks = static_cast<double>(duration.value);
         const auto half = static_cast<double>(duration.value / 2);
-        for (std::size_t i = 0; i < setup.axes(); ++i) {
+        for (const AxisIndex i : axis_indices(setup.axes())) {
             const AxisLimits& axis = setup.limits_of_axis(i);
             const double step = setup.step_of_motors(i);
             const double speed = std::abs(places[2][i] - places[0][i]) / ticks;
@@ -236,7 +238,7 @@ struct AxisWatch {
             hardest = std::max(hardest, acceleration / most);
         }
     }
-    static double hardest_of(const PathSetup& setup, std::size_t axis) {
+    static double hardest_of(const PathSetup& setup, AxisIndex axis) {
         const AxisLimits& limits = setup.limits_of_axis(axis);
         return std::max(limits.max_acceleration, limits.max_deceleration);
     }

@@ -78,7 +78,7 @@ MotorCase motor_case(std::uint64_t seed) {
 
 Place motors_of_place(const MotorMap& map, const Place& axes) {
     Place motors;
-    for (std::size_t m = 0; m < map.motors(); ++m) { motors.push_back(map.place(m, axes)); }
+    for (const MotorIndex m : motor_indices(map.motors())) { motors.push_back(map.place(m, axes)); }
     return motors;
 }
 
@@ -118,7 +118,7 @@ TEST_P(RandomMotors, LeaveTheAxesWithinTheirLimits) {
             if (ticks < kLong_ticks) { continue; }
             Place mean;
             for (const AxisTrack& track : frame.axes) { mean.push_back(track.body[p].covered().as_steps() / ticks); }
-            for (std::size_t i = 0; i < setup.axes(); ++i) {
+            for (const AxisIndex i : axis_indices(setup.axes())) {
                 const double speed = std::abs(c.inverse.place(i, mean));
                 const double most = setup.limits_of_axis(i).max_velocity;
                 ASSERT_LE(speed, kSlack * most + 2 * setup.step_of_motors(i) / ticks) << "axis " << i;

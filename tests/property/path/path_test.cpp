@@ -132,7 +132,7 @@ TEST(PathMemory, DependsOnTheWayToStopAndNotOnTheProgram) {
 TEST(PathMemory, DoesNotGrowWithTheTurnsOfAnArc) {
     const PathSetup setup = setup_of(mill());
     const ArcShape shape{.first = 0, .second = 1, .centre_first_mm = 10, .turns = 400};
-    const AxisVector to = setup.to_steps(Place{0, 0, 20});
+    const PlaceVector to = setup.to_steps(Place{0, 0, 20});
     const MoveSettings settings{.feed_mm_per_tick = 60e-6};
     PathPlanner whole(setup);
     whole.begin(std::vector<Position>(3));

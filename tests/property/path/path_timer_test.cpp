@@ -62,7 +62,7 @@ Timed time_path(const PathSetup& setup, const TestProgram& program) {
     for (std::size_t k = 0; k < program.moves.size(); ++k) {
         const TestMove& move = program.moves[k];
         const auto block = static_cast<std::uint32_t>(k + 1);
-        const AxisVector to = setup.to_steps(move.to);
+        const PlaceVector to = setup.to_steps(move.to);
         move.arc ? timer.begin_arc_to_steps(*move.arc, to, move.settings, block)
                  : timer.line_to_steps(to, move.settings, block);
         timed.most_kept = std::max(timed.most_kept, timer.kept() + timer.waiting());

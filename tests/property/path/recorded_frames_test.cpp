@@ -62,7 +62,7 @@ void add_time(Text& text, const RandomCase& c) {
     timer.begin(std::vector<Position>(c.setup.axes()), {}, load);
     for (std::size_t k = 0; k < c.program.moves.size(); ++k) {
         const TestMove& move = c.program.moves[k];
-        const AxisVector to = c.setup.to_steps(move.to);
+        const PlaceVector to = c.setup.to_steps(move.to);
         const auto block = static_cast<std::uint32_t>(k + 1);
         move.arc ? timer.begin_arc_to_steps(*move.arc, to, move.settings, block)
                  : timer.line_to_steps(to, move.settings, block);

@@ -42,7 +42,7 @@ Record homed_twice() {
     run.home();
     run.run("G1 X20 Y10 F3000\n");
     run.home();
-    run.home(AxisSet{2});
+    run.home({AxisIndex{1}});
     run.run("G1 X20 Y10 F3000\n");
     return run.finish();
 }

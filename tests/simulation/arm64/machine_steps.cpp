@@ -13,7 +13,7 @@ namespace {
 /// Counts steps and sums them up by FNV-1a.
 class StepSum : public VirtualObserver {
 public:
-    void on_step(std::size_t axis, StepEdge step) override {
+    void on_step(MotorIndex axis, StepEdge step) override {
         ++steps_;
         for (const auto value : {static_cast<std::uint64_t>(axis), static_cast<std::uint64_t>(step.tick.value),
                                  static_cast<std::uint64_t>(step.direction)}) {
@@ -49,7 +49,7 @@ bool play_delta(StepSum& sum) {
     (void)vm.command(CommandKind::Home);
     if (!rests_behind(1)) { return false; }
     vm.give_program(1, program);
-    (void)vm.command(CommandKind::Run, 0, 1);
+    (void)vm.command(CommandKind::Run, {}, 1);
     return rests_behind(2);
 }
 

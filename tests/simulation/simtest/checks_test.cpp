@@ -230,8 +230,8 @@ TEST_F(Checks, DetectAxesThatRanDifferentFramesWithoutAFault) {
 class FalsifyingObserver : public VirtualObserver {
 public:
     explicit FalsifyingObserver(ClaimCheck& claims) : claims_(claims) {}
-    void on_step(std::size_t axis, StepEdge step) override { claims_.on_step(axis, step); }
-    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override {
+    void on_step(MotorIndex axis, StepEdge step) override { claims_.on_step(axis, step); }
+    void on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& node) override {
         AxisOutputs altered = out;
         if (altered.state) { altered.state->position = altered.state->position + Displacement::steps(extra_steps); }
         claims_.on_axis(axis, now, altered, node);

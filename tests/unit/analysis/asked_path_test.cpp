@@ -32,25 +32,25 @@ AskedPath asked(const Program& program) {
 TEST(AskedPathTest, CountsTheStepsAlongACircle) {
     const AskedPath path = asked(circle());
     ASSERT_EQ(path.size(), 1U);
-    EXPECT_EQ(path.steps(0, 0), 4 * kRadius_steps);
-    EXPECT_EQ(path.steps(0, 1), 4 * kRadius_steps);
+    EXPECT_EQ(path.steps(0, MotorIndex{0}), 4 * kRadius_steps);
+    EXPECT_EQ(path.steps(0, MotorIndex{1}), 4 * kRadius_steps);
 }
 
 TEST(AskedPathTest, ListsAWayForEachReversal) {
     const AskedPath path = asked(circle());
-    const auto& x = path.strokes_of(0);
+    const auto& x = path.strokes_of(MotorIndex{0});
     ASSERT_EQ(x.size(), 2U) << "left and back";
     EXPECT_EQ(x[0].from, 5000);
     EXPECT_EQ(x[0].to, 3000);
     EXPECT_EQ(x[1].to, 5000);
-    EXPECT_EQ(path.strokes_of(1).size(), 3U) << "up, down and back";
+    EXPECT_EQ(path.strokes_of(MotorIndex{1}).size(), 3U) << "up, down and back";
 }
 
 TEST(AskedPathTest, KnowsLinesFromRestToRestExactly) {
     const AskedPath line = asked(test::path_through({{0, 0}, {1, 1}}));
-    EXPECT_EQ(line.steps(0, 0), 100);
-    EXPECT_EQ(line.slack(0, 0), 0);
-    EXPECT_GT(asked(circle()).slack(0, 0), 0);
+    EXPECT_EQ(line.steps(0, MotorIndex{0}), 100);
+    EXPECT_EQ(line.slack(0, MotorIndex{0}), 0);
+    EXPECT_GT(asked(circle()).slack(0, MotorIndex{0}), 0);
 }
 
 TEST(AskedShapeTest, MeasuresTheDistanceFromTheCircle) {

@@ -16,7 +16,7 @@ protected:
         for (std::int64_t i = 0; i < steps; ++i) { step(axis, first + i * 100, from_count + i + 1); }
     }
     void step(std::size_t axis, std::int64_t tick, std::int64_t count) {
-        job.take(axis, MeasuredStep{.tick = {tick}, .count = count, .direction = 1});
+        job.take(MotorIndex{axis}, MeasuredStep{.tick = {tick}, .count = count, .direction = 1});
     }
     void both(std::int64_t first, std::int64_t from_count, std::int64_t steps) {
         for (std::int64_t i = 0; i < steps; ++i) {

@@ -45,7 +45,7 @@ AskedPath asked(const MachineConfig& machine, const std::vector<std::vector<doub
 class Steps {
 public:
     explicit Steps(std::size_t motors) : lane_(motors) {
-        for (auto& lane : lane_) { lane = merge_.add_lane(); }
+        for (auto& lane : lane_) { lane = MotorIndex{merge_.add_lane()}; }
     }
     void add(std::size_t motor, std::int64_t before, std::vector<StepEdge> edges) {
         MeasuredSteps made;
@@ -65,7 +65,7 @@ public:
 
 private:
     StepMerge merge_;
-    std::vector<std::optional<std::size_t>> lane_;  // of each motor, and its number too
+    std::vector<std::optional<MotorIndex>> lane_;  // of each motor, and its number too
 };
 
 void make(JobMoves& job, Steps& steps) {
@@ -75,10 +75,10 @@ void make(JobMoves& job, Steps& steps) {
 TEST(MotorMoves, AreAskedOfEachMotorByTheMap) {
     const AskedPath path = asked(two_belts(), {{0, 0}, {10, 0}, {10, 4}});
     ASSERT_EQ(path.motors(), 2U);
-    EXPECT_EQ(path.steps(0, 0), 1000);
-    EXPECT_EQ(path.steps(0, 1), 1000);
-    EXPECT_EQ(path.strokes_of(1).back().from, 1000);
-    EXPECT_EQ(path.strokes_of(1).back().to, 600) << "B goes back while Y rises";
+    EXPECT_EQ(path.steps(0, MotorIndex{0}), 1000);
+    EXPECT_EQ(path.steps(0, MotorIndex{1}), 1000);
+    EXPECT_EQ(path.strokes_of(MotorIndex{1}).back().from, 1000);
+    EXPECT_EQ(path.strokes_of(MotorIndex{1}).back().to, 600) << "B goes back while Y rises";
 }
 
 TEST(MotorMoves, OfBothBeltsAreStepByStepOnTheLineOfAnAxis) {
@@ -159,8 +159,8 @@ Run run_of(double speed, double acceleration) {
 TEST(AxisMeter, DerivesSpeedAndAccelerationOfAnAxisFromAllItsMotors) {
     const MachineConfig machine = two_belts();
     AxisMeter meter(machine, std::make_shared<const Kinematics>(machine), true);
-    meter.take(0, run_of(0.01, 1e-5));
-    meter.take(1, run_of(0.01, -1e-5));
+    meter.take(MotorIndex{0}, run_of(0.01, 1e-5));
+    meter.take(MotorIndex{1}, run_of(0.01, -1e-5));
     const auto axes = meter.finish();
     ASSERT_EQ(axes.size(), 2U);
     EXPECT_NEAR(axes[0].peak_mm_per_tick * 100, 0.01, 1e-7) << "X by the half sum: at one speed";
@@ -173,7 +173,7 @@ TEST(AxisMeter, DerivesSpeedAndAccelerationOfAnAxisFromAllItsMotors) {
 TEST(AxisMeter, LeavesOutFramesThatLackAMotor) {
     const MachineConfig machine = two_belts();
     AxisMeter meter(machine, std::make_shared<const Kinematics>(machine), true);
-    meter.take(0, run_of(0.01, 0));
+    meter.take(MotorIndex{0}, run_of(0.01, 0));
     EXPECT_TRUE(meter.finish().empty());
 }
 

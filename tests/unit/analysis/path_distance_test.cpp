@@ -18,10 +18,10 @@ TEST(PathDistance, IsMeasuredAtAPlaceBesideTheLine) {
     PathDistance distance(asked);
     distance.begin(asked, 0);
     float largest = 0;
-    EXPECT_TRUE(distance.step(0, 1, 1));
+    EXPECT_TRUE(distance.step(MotorIndex{0}, 1, 1));
     distance.measure(asked, largest);  // 0.01 mm on X alone
     EXPECT_NEAR(largest, 0.01 * 0.01 / 2, 1e-9);
-    EXPECT_TRUE(distance.step(1, 1, 1));
+    EXPECT_TRUE(distance.step(MotorIndex{1}, 1, 1));
     distance.measure(asked, largest);
     EXPECT_NEAR(largest, 0.01 * 0.01 / 2, 1e-9);
 }
@@ -33,7 +33,7 @@ TEST(PathDistance, OfManyStepsIsThatOfEach) {
         if (i < 37) { steps.emplace_back(Ticks{100 * i}, 0, 1); }
         if (i >= 3) { steps.emplace_back(Ticks{100 * i + 1}, 1, 1); }
     }
-    const std::vector<std::optional<std::size_t>> motors{0, 1};
+    const std::vector<std::optional<MotorIndex>> motors{MotorIndex{0}, MotorIndex{1}};
     PathDistance together(asked);
     together.begin(asked, 0);
     float largest = 0;
@@ -42,19 +42,20 @@ TEST(PathDistance, OfManyStepsIsThatOfEach) {
     each.begin(asked, 0);
     float of_each = 0;
     for (const MergedStep& step : steps) {
-        EXPECT_TRUE(each.step(step.lane(), each.count(step.lane()) + step.direction(), step.direction()));
+        EXPECT_TRUE(each.step(MotorIndex{step.lane()}, each.count(MotorIndex{step.lane()}) + step.direction(),
+                              step.direction()));
         each.measure(asked, of_each);
     }
     EXPECT_EQ(largest, of_each);
-    EXPECT_EQ(together.count(0), 37);
-    EXPECT_EQ(together.count(1), 37);
+    EXPECT_EQ(together.count(MotorIndex{0}), 37);
+    EXPECT_EQ(together.count(MotorIndex{1}), 37);
 }
 
 TEST(PathDistance, NoticesAPlaceThatIsNotTheNext) {
     const AskedPath asked = diagonal();
     PathDistance distance(asked);
-    EXPECT_FALSE(distance.step(0, 5, 1));
-    EXPECT_TRUE(distance.step(0, 6, 1));
+    EXPECT_FALSE(distance.step(MotorIndex{0}, 5, 1));
+    EXPECT_TRUE(distance.step(MotorIndex{0}, 6, 1));
 }
 
 }  // namespace

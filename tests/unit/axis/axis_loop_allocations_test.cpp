@@ -51,9 +51,9 @@ protected:
     MachineConfig machine_ = quick_machine({"X"});
     Tick now_{1'000'000};
     Coordinator coordinator_{machine_, 1, 1, methods::begin_steps};
-    AxisNode node_{{0, machine_, 7, 1},
+    AxisNode node_{{MotorIndex{0}, machine_, 7, 1},
                    [this](Tick now) { return simulated_port(machine_, motors_of(machine_)[0], now); }};
-    HealthMeter meter_{0, 7, machine_.tick_ns};
+    HealthMeter meter_{MotorIndex{0}, 7, machine_.tick_ns};
     std::vector<StepEdge> steps_;
     AxisNode::OnStep on_step_ = [this](StepEdge step) { steps_.push_back(step); };
     AxisState axis_state_;

@@ -42,8 +42,9 @@ protected:
     bool noticed(AxisNotice::Kind kind) const { return std::ranges::count(out.notices, kind, &AxisNotice::kind) != 0; }
 
     Tick now{100'000};
-    AxisCondition condition{
-        .phases = {}, .position = {machine(), 0, std::unexpected(FaultCode::PositionNotKept)}, .orders = {}};
+    AxisCondition condition{.phases = {},
+                            .position = {machine(), MotorIndex{0}, std::unexpected(FaultCode::PositionNotKept)},
+                            .orders = {}};
     DeviceView device;
     AxisOutputs out;
 };

@@ -36,7 +36,7 @@ TEST_F(StandingAxis, CountsLostStepsFromTheHomingOn) {
 TEST_F(StandingAxis, HasLostStepsBeyondTheLimitOfItsMotor) {
     MachineConfig machine = this->machine();
     const auto has_lost = [&](std::int64_t steps) {
-        AxisPosition homed(machine, 0, std::unexpected(FaultCode::PositionNotKept));
+        AxisPosition homed(machine, MotorIndex{0}, std::unexpected(FaultCode::PositionNotKept));
         homed.set_zero(0, at_rest());
         DeviceStatus status = at_rest();
         status.encoder_count += steps;
@@ -71,7 +71,7 @@ TEST_F(StandingAxis, KeptByTheProcessBeforeHomesTheAxis) {
     DeviceStatus status = at_rest();
     status.encoder_count = 7;
     position.set_zero(40, status);
-    AxisPosition next(machine(), 0, *position.keep(device));
+    AxisPosition next(machine(), MotorIndex{0}, *position.keep(device));
     EXPECT_EQ(next.claim(status, true), FaultCode::DeviceFault);
     EXPECT_EQ(next.claim(status, false), FaultCode::None);
     EXPECT_TRUE(next.homed());

@@ -17,7 +17,7 @@ protected:
         machine.boards = {{.name = "IO", .host = "", .device = {}}};
         return machine;
     }
-    AxisPosition position{with_board(), 2, std::unexpected(FaultCode::PositionNotKept)};
+    AxisPosition position{with_board(), MotorIndex{2}, std::unexpected(FaultCode::PositionNotKept)};
 };
 
 TEST_F(BoardParts, StandAt0WheneverTheirDeviceIsFound) {
@@ -47,7 +47,7 @@ TEST_F(BoardParts, HaveNoEncoderAndKeepNoPosition) {
 }
 
 TEST_F(BoardParts, RefuseATrackWithAStep) {
-    const AxisLimits limits = frame_limits_of(with_board(), 2);
+    const AxisLimits limits = frame_limits_of(with_board(), MotorIndex{2});
     const auto check = [&](Velocity velocity) {
         AxisTrack track;
         track.body.append({{2'000'000}, velocity, {}});

@@ -21,7 +21,7 @@ protected:
         return {.power_up = 9, .run = 3, .run_asked = 3, .finished = true, .free_segments = 1000};
     }
     /// The position that the previous process of axis 0 kept: it makes the axis homed.
-    static KeptPosition kept() { return {scale_of(machine(), 0), 9, 3, {}, 0, 0}; }
+    static KeptPosition kept() { return {scale_of(machine(), MotorIndex{0}), 9, 3, {}, 0, 0}; }
 
     /// Runs one loop at the beginning of a slot, with the messages given since the last loop.
     AxisOutputs loop(Slot at) {
@@ -73,7 +73,7 @@ protected:
         return false;
     }
 
-    AxisController axis{0, machine(), 77, 5, methods::begin_steps, kept()};
+    AxisController axis{MotorIndex{0}, machine(), 77, 5, methods::begin_steps, kept()};
     DeviceStatus device = resting_device();
     std::vector<Frame> frames;
     std::vector<AxisState> peers;

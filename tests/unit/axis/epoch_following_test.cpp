@@ -32,7 +32,7 @@ protected:
         AxisLoop l = loop();
         following.take(frame, rest_position(0, false), l);
     }
-    EpochFollowing following{0, machine()};
+    EpochFollowing following{MotorIndex{0}, machine()};
 };
 
 TEST_F(Following, BeginsARunWithTheFirstFrameAndLoadsEachFrameOnce) {
@@ -84,7 +84,7 @@ TEST_F(Following, VetoesAFrameThatAPeerDoesNotReport) {
     following.check(l);
     EXPECT_TRUE(noticed(AxisNotice::Kind::Vetoed));
     EXPECT_EQ(ordered<device::Veto>(), 1);
-    EXPECT_EQ(out.notices.front().check.value().lacking, axis_bit(1));
+    EXPECT_EQ(out.notices.front().check.value().lacking, MotorSet{MotorIndex{1}});
 }
 
 TEST_F(Following, IgnoresAStateStampedInTheFuture) {

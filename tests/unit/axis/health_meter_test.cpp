@@ -26,7 +26,7 @@ protected:
 
     DeviceStatus device_{.moving = true, .free_segments = 1000};
     std::uint32_t free_captures_ = 65536;
-    HealthMeter meter_{0, 77, 1000};
+    HealthMeter meter_{MotorIndex{0}, 77, 1000};
 };
 
 AxisOutputs begins(bool own, Tick frame_start, bool last = false) {

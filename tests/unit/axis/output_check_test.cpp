@@ -16,7 +16,7 @@ protected:
     FaultCode check(const std::vector<OutputChange>& body) const {
         OutputTrack track;
         for (const OutputChange& change : body) { track.body.append(change); }
-        return OutputCheck(0, machine).check(track, Ticks{100}, Ticks{50});
+        return OutputCheck(MotorIndex{0}, machine).check(track, Ticks{100}, Ticks{50});
     }
     MachineConfig machine;
 };

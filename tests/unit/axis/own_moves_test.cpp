@@ -35,7 +35,7 @@ protected:
         own.record(status, l);
         own.end(l);
     }
-    OwnMoves own{0, machine(), methods::begin_steps};
+    OwnMoves own{MotorIndex{0}, machine(), methods::begin_steps};
     std::uint64_t sequence = 0;
 };
 

@@ -17,7 +17,7 @@ MachineConfig mill() {
 /// X, homed, has ended run 7 at the device's count 1200 and rests there.
 class Claim : public testing::Test {
 protected:
-    FaultCode doubt() const { return doubt_of(kept, scale_of(machine, 0), device, most()); }
+    FaultCode doubt() const { return doubt_of(kept, scale_of(machine, MotorIndex{0}), device, most()); }
     std::int64_t most() const { return most_following_error(motors_of(machine)[0]); }
 
     MachineConfig machine = mill();
@@ -27,7 +27,7 @@ protected:
                         .run_asked = 7,
                         .finished = true,
                         .encoder_count = 1195};
-    KeptPosition kept{.scale = scale_of(mill(), 0),
+    KeptPosition kept{.scale = scale_of(mill(), MotorIndex{0}),
                       .power_up = 42,
                       .run = 7,
                       .position = Position::steps(1200),
@@ -38,7 +38,7 @@ protected:
 TEST_F(Claim, IsProvedByADeviceThatHasRunNothingSince) { EXPECT_EQ(doubt(), FaultCode::None); }
 
 TEST_F(Claim, OfAnotherMachineOrAxisIsForeign) {
-    EXPECT_EQ(doubt_of(kept, scale_of(machine, 1), device, most()), FaultCode::PositionForeign);
+    EXPECT_EQ(doubt_of(kept, scale_of(machine, MotorIndex{1}), device, most()), FaultCode::PositionForeign);
     machine.name = "lathe";
     EXPECT_EQ(doubt(), FaultCode::PositionForeign);
 }

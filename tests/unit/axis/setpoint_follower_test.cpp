@@ -45,7 +45,7 @@ const Position kHome = Position::steps(0);
 
 /// Axis 0 of two, after it has received the epoch.
 SetpointFollower informed() {
-    SetpointFollower follower{0, machine()};
+    SetpointFollower follower{MotorIndex{0}, machine()};
     follower.receive(MachineState{.epoch = kEpoch});
     return follower;
 }
@@ -104,7 +104,7 @@ TEST_F(Follower, VetoesAtTheCheckWhatAPeerDoesNotHold) {
     EXPECT_FALSE(follower.veto().has_value()) << "evidence may still arrive";
     EXPECT_FALSE(armed_at(96, 1));
     EXPECT_EQ(follower.veto(), 1u);
-    EXPECT_EQ(follower.failed_check().lacking, axis_bit(1));
+    EXPECT_EQ(follower.failed_check().lacking, MotorSet{MotorIndex{1}});
 }
 
 TEST_F(Follower, VetoesAtTheCheckWithoutTheCoordinator) {

@@ -86,7 +86,7 @@ TEST_F(Activities, ANoticeNamesEachNewPhaseAndTheTransitionsNameEachChange) {
 TEST_F(Activities, TheFaultOfAMotionIsKeptUntilItsReset) {
     run();
     EXPECT_FALSE(machine.has_fault());
-    machine.abort({FaultCode::AxisLost, 1}, out);
+    machine.abort({FaultCode::AxisLost, MotorIndex{1}}, out);
     EXPECT_EQ(machine.fault().code, FaultCode::AxisLost);
     become(E::Fails, activity::InFault{machine.fault()});
     EXPECT_EQ(machine.fault().faulty_axis(), 1u);
@@ -95,7 +95,7 @@ TEST_F(Activities, TheFaultOfAMotionIsKeptUntilItsReset) {
 }
 
 TEST_F(Activities, AFaultOfTheWholeMachineNamesNoAxis) {
-    EXPECT_EQ((MachineFault{FaultCode::FrameLate, 1}.faulty_axis()), std::nullopt);
+    EXPECT_EQ((MachineFault{FaultCode::FrameLate, MotorIndex{1}}.faulty_axis()), std::nullopt);
     EXPECT_EQ(MachineFault{}.faulty_axis(), std::nullopt);
 }
 

@@ -15,7 +15,7 @@ TEST_F(Roster, KnowsAnAxisFromItsFirstState) {
     EXPECT_EQ(axes.arrival_of(state_of(0), slot), Arrival::FirstSeen);
     receive_all();
     EXPECT_FALSE(axes.missing(slot));
-    EXPECT_EQ(axes.present(slot), 3u);
+    EXPECT_EQ(axes.present(slot), MotorSet::first(2));
     EXPECT_EQ(axes.arrival_of(state_of(0), slot), Arrival::SameAxis);
 }
 
@@ -46,10 +46,10 @@ TEST_F(Roster, TakesAnotherProcessOfAnAxisOnlyOnceTheKnownOneIsSilentForLongerTh
 TEST_F(Roster, DoesNotCountSlotsOfItsOwnStallAsSilence) {
     receive_all();
     const Slot silence = rules::silence_slots(machine.timing);
-    EXPECT_TRUE(axes.is_present(0, slot + silence));
-    EXPECT_FALSE(axes.is_present(0, slot + silence + 1));
+    EXPECT_TRUE(axes.is_present(MotorIndex{0}, slot + silence));
+    EXPECT_FALSE(axes.is_present(MotorIndex{0}, slot + silence + 1));
     axes.forgive(1, slot);
-    EXPECT_TRUE(axes.is_present(0, slot + silence + 1));
+    EXPECT_TRUE(axes.is_present(MotorIndex{0}, slot + silence + 1));
     EXPECT_FALSE(axes.is_unsettled(slot));
 }
 
@@ -68,8 +68,8 @@ TEST_F(Roster, IsUnsettledAfterALongStallUntilEveryAxisWasReceivedTwice) {
 TEST_F(Roster, AnOrderIsDoneWhenItsAxisReportsItInTheSameTerm) {
     receive_all();
     EXPECT_TRUE(orders.all_done(axes));
-    (void)orders.give(1, AxisCommandKind::Home, term);
-    EXPECT_TRUE(orders.is_open(1, AxisCommandKind::Home, axes));
+    (void)orders.give(MotorIndex{1}, AxisCommandKind::Home, term);
+    EXPECT_TRUE(orders.is_open(MotorIndex{1}, AxisCommandKind::Home, axes));
     std::vector<AxisCommand> repeated;
     orders.repeat(axes, repeated);
     ASSERT_EQ(repeated.size(), 1u);
@@ -78,20 +78,20 @@ TEST_F(Roster, AnOrderIsDoneWhenItsAxisReportsItInTheSameTerm) {
     done.command_done = 1;
     done.term = {4, 1};
     axes.take(done, slot);
-    EXPECT_FALSE(orders.is_done(1, axes)) << "it did this for another owner";
+    EXPECT_FALSE(orders.is_done(MotorIndex{1}, axes)) << "it did this for another owner";
     done.term = term;
     axes.take(done, slot);
-    EXPECT_TRUE(orders.is_done(1, axes));
+    EXPECT_TRUE(orders.is_done(MotorIndex{1}, axes));
 }
 
 TEST_F(Roster, RenumbersAnOpenOrderWhenItsAxisHasCountedFurther) {
     receive_all();
-    (void)orders.give(0, AxisCommandKind::Reset, term);
+    (void)orders.give(MotorIndex{0}, AxisCommandKind::Reset, term);
     AxisState ahead = state_of(0);
     ahead.command_done = 7;
     axes.take(ahead, slot);
     orders.catch_up(ahead, true);
-    EXPECT_EQ(orders.newest(0)->sequence, 8u);
+    EXPECT_EQ(orders.newest(MotorIndex{0})->sequence, 8u);
 }
 
 }  // namespace

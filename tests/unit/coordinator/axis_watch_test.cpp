@@ -33,8 +33,8 @@ TEST_F(Watched, TheMachineWaitsForAnAxisThatFallsSilent) {
     axes.take(state_of(1), slot);
     look();
     EXPECT_EQ(jobs.activity().phase(), MachinePhase::Waiting);
-    EXPECT_FALSE(axes.state(0));
-    EXPECT_TRUE(axes.state(1));
+    EXPECT_FALSE(axes.state(MotorIndex{0}));
+    EXPECT_TRUE(axes.state(MotorIndex{1}));
 }
 
 TEST_F(Watched, AnAxisWithAnotherConfigurationIsAFault) {
@@ -49,7 +49,7 @@ TEST_F(Watched, AnAxisInFaultIsAFaultUntilItsResetIsOrdered) {
     AxisState state = state_of(1);
     state.fault = FaultCode::LimitHit;
     axes.take(state, slot);
-    (void)orders.give(1, AxisCommandKind::Reset, term);
+    (void)orders.give(MotorIndex{1}, AxisCommandKind::Reset, term);
     look();
     EXPECT_EQ(fault(), FaultCode::None);
     orders.withdraw_all();

@@ -49,7 +49,7 @@ Program all_kinds() {
 class RunningCoordinator : public testing::Test {
 protected:
     explicit RunningCoordinator(MachineConfig machine = quick_machine({"X", "Y"})) : machine_(std::move(machine)) {
-        for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
+        for (const MotorIndex i : motor_indices(machine_.axes.size())) {
             nodes_.push_back(std::make_unique<AxisNode>(AxisNode::Setup{i, machine_, 7 + i, 1}, [this, i](Tick now) {
                 return simulated_port(machine_, motors_of(machine_)[i], now);
             }));
@@ -137,9 +137,9 @@ protected:
         ASSERT_TRUE(reaches(MachinePhase::Idle, "run to the end"));
     }
     void jog() {
-        ask({.kind = CommandKind::Jog, .jogs = {{.axis = 1, .speed_mm_s = 5, .distance_mm = 0.1}}}, "jog");
+        ask({.kind = CommandKind::Jog, .jogs = {{.axis = AxisIndex{1}, .speed_mm_s = 5, .distance_mm = 0.1}}}, "jog");
         ASSERT_TRUE(reaches(MachinePhase::Idle, "jog"));
-        ask({.kind = CommandKind::Jog, .jogs = {{.axis = 1, .speed_mm_s = -5, .distance_mm = 0.1}}}, "jog");
+        ask({.kind = CommandKind::Jog, .jogs = {{.axis = AxisIndex{1}, .speed_mm_s = -5, .distance_mm = 0.1}}}, "jog");
         ASSERT_TRUE(reaches(MachinePhase::Idle, "jog"));
     }
     void expect_none() {

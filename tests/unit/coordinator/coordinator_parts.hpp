@@ -45,7 +45,7 @@ protected:
     /// The axis reports its newest order as done.
     void finish_order(std::uint32_t axis, FaultCode fault = FaultCode::None) {
         AxisState state = state_of(axis);
-        state.command_done = orders.newest(axis)->sequence;
+        state.command_done = orders.newest(MotorIndex{axis})->sequence;
         state.command_fault = fault;
         axes.take(state, slot);
     }

@@ -19,7 +19,7 @@ namespace {
 class HeldJob : public testing::Test {
 protected:
     HeldJob() {
-        for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
+        for (const MotorIndex i : motor_indices(machine_.axes.size())) {
             nodes_.push_back(std::make_unique<AxisNode>(AxisNode::Setup{i, machine_, 7 + i, 1}, [this, i](Tick now) {
                 return simulated_port(machine_, motors_of(machine_)[i], now);
             }));

@@ -115,14 +115,14 @@ TEST_F(Running, AnInterruptionThatNobodyAskedForIsNoticedAndTheJobGoesOn) {
 
 TEST_F(Running, AFaultInMotionStopsOnThePathBeforeTheMachineIsInFault) {
     ASSERT_EQ(run(), FaultCode::None);
-    ask([&](auto& l) { jobs.fail({FaultCode::AxisLost, 1}, l); });
+    ask([&](auto& l) { jobs.fail({FaultCode::AxisLost, MotorIndex{1}}, l); });
     EXPECT_EQ(jobs.activity().phase(), MachinePhase::Stopping);
     EXPECT_TRUE(jobs.activity().is<activity::OnPath>());
     EXPECT_EQ(jobs.activity().fault().faulty_axis(), 1u);
 }
 
 TEST_F(Running, AFaultAtRestEndsInFaultAtOnce) {
-    ask([&](auto& l) { jobs.fail({FaultCode::AxisLost, 1}, l); });
+    ask([&](auto& l) { jobs.fail({FaultCode::AxisLost, MotorIndex{1}}, l); });
     EXPECT_EQ(jobs.activity().phase(), MachinePhase::Fault);
 }
 
@@ -151,7 +151,7 @@ TEST_F(Running, HomingFailsWithTheFaultOfItsAxis) {
     ask([&](auto& l) { advance_job(jobs, l); });
     EXPECT_EQ(jobs.activity().fault().code, FaultCode::HomeSwitchNotFound);
     EXPECT_EQ(jobs.activity().phase(), MachinePhase::Stopping);
-    EXPECT_TRUE(orders.is_open(1, AxisCommandKind::Halt, axes)) << "the other axis is halted";
+    EXPECT_TRUE(orders.is_open(MotorIndex{1}, AxisCommandKind::Halt, axes)) << "the other axis is halted";
 }
 
 TEST_F(Running, OwnMovesEndAtTheirTargetsOrInAFault) {
@@ -177,7 +177,8 @@ TEST_F(Running, StandingDownForgetsTheJobWithoutARecord) {
 
 TEST_F(Running, StandingDownEndsAPauseAndAJogInIt) {
     programs.accept(1, {.name = "pause", .axes = {"X", "Y"}, .start_mm = {0, 0}, .blocks = {{1, Pause{}}}});
-    const Command jog{.client = 4, .sequence = 1, .kind = CommandKind::Jog, .jogs = {{.axis = 0, .speed_mm_s = 5}}};
+    const Command jog{
+        .client = 4, .sequence = 1, .kind = CommandKind::Jog, .jogs = {{.axis = AxisIndex{0}, .speed_mm_s = 5}}};
     for (const bool is_jogged : {false, true}) {
         ASSERT_EQ(run(), FaultCode::None);
         EXPECT_EQ(jobs.activity().phase(), MachinePhase::Paused);

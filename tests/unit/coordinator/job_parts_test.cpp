@@ -48,10 +48,10 @@ TEST(HomingSequence, HomesAxesOfOneSequenceTogetherTheLowestFirst) {
         machine.axes.push_back({.name = "A"});
         machine.axes.back().homing.sequence = sequence;
     }
-    HomingSequence homing(0b01111);
-    EXPECT_EQ(homing.next_group(machine), 0b01010u);
-    EXPECT_EQ(homing.next_group(machine), 0b00101u);
-    EXPECT_EQ(homing.next_group(machine), 0u) << "the last axis was not asked for";
+    HomingSequence homing(AxisSet::first(4));
+    EXPECT_EQ(homing.next_group(machine).bits(), 0b01010u);
+    EXPECT_EQ(homing.next_group(machine).bits(), 0b00101u);
+    EXPECT_EQ(homing.next_group(machine).bits(), 0u) << "the last axis was not asked for";
 }
 
 TEST(PathProgress, AddsUpToTheShareOfThePlannedTime) {
@@ -84,10 +84,10 @@ protected:
 TEST_F(OwnTargetsOfTwo, OrderOnlyTheAxesThatMove) {
     const auto to = targets(0, 30);
     ASSERT_TRUE(to);
-    EXPECT_EQ(to->motors(), axis_bit(1));
+    EXPECT_EQ(to->motors(), MotorSet{MotorIndex{1}});
     to->order(orders, term);
-    EXPECT_FALSE(orders.newest(0));
-    EXPECT_EQ(orders.newest(1)->target_steps, 3000);
+    EXPECT_FALSE(orders.newest(MotorIndex{0}));
+    EXPECT_EQ(orders.newest(MotorIndex{1})->target_steps, 3000);
 }
 
 TEST_F(OwnTargetsOfTwo, ProgressIsThatOfTheAxisWithTheMostBeforeIt) {
@@ -162,7 +162,7 @@ TEST_F(Inherited, NamesWhyItIsNotGoneOnWith) {
     other.config_hash = 2;
     EXPECT_EQ(doubt_of(other), TakeoverDoubt::OtherPlan);
     EXPECT_EQ(doubt_of(last, OnTakeover::Continue, slot), TakeoverDoubt::Interrupted);
-    axes.forget(1);
+    axes.forget(MotorIndex{1});
     EXPECT_EQ(doubt_of(last), TakeoverDoubt::AxisInDoubt);
 }
 

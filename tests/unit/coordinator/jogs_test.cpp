@@ -14,7 +14,7 @@ protected:
         return {.client = 1,
                 .sequence = sequence,
                 .kind = CommandKind::Jog,
-                .jogs = {{.axis = 0, .speed_mm_s = 5, .distance_mm = distance_mm}}};
+                .jogs = {{.axis = AxisIndex{0}, .speed_mm_s = 5, .distance_mm = distance_mm}}};
     }
     void press(const Command& command, bool is_late = false) {
         CoordinatorLoop l = loop();
@@ -37,7 +37,7 @@ TEST(JogTarget, IsTheDistanceOrTheEndOfTheTravel) {
     const AxisConfig axis{.name = "X", .steps_per_mm = 100, .position_min_mm = 0, .position_max_mm = 100};
     const auto target = [&](double speed_mm_s, std::optional<double> distance_mm, std::int64_t here,
                             bool homed = true) {
-        return jog_target({0, speed_mm_s, distance_mm}, axis, here, homed);
+        return jog_target({AxisIndex{0}, speed_mm_s, distance_mm}, axis, here, homed);
     };
     EXPECT_EQ(target(10, 2.5, 700), 950);
     EXPECT_EQ(target(-10, 2.5, 100), 0);
@@ -117,7 +117,7 @@ TEST_F(Jogged, NothingIsHeldWhenAllIsReleased) {
 
 /// A jog of several axes goes on with a further line when one of them is at its end. That is no renewal.
 TEST_F(Jogged, APathJogIsNotRenewedByAFurtherLine) {
-    const Command held{.client = 1, .kind = CommandKind::Jog, .jogs = {{.axis = 0, .speed_mm_s = 5}}};
+    const Command held{.client = 1, .kind = CommandKind::Jog, .jogs = {{.axis = AxisIndex{0}, .speed_mm_s = 5}}};
     const Tick pressed_at{1'000'000};
     CoordinatorLoop later = loop();
     later.now = pressed_at + machine.jog_hold_ticks();

@@ -118,7 +118,7 @@ TEST(Boards, WhoseDeviceLacksAChannelAreRefusedBeforeAnythingMoves) {
 TEST(Boards, RunOnTheirHostLikeMotors) {
     const auto machine = parse_machine(with_blocks({kIo, kAir})).value();
     EXPECT_EQ(axis_to_run(machine, "IO", "here").value(), 1U);
-    EXPECT_EQ(placed_on(machine, "here").axes, (std::vector<std::size_t>{0, 1}));
+    EXPECT_EQ(placed_on(machine, "here").axes, (std::vector<MotorIndex>{MotorIndex{0}, MotorIndex{1}}));
     EXPECT_EQ(machine.network.processes, 3U);
 }
 

@@ -152,17 +152,17 @@ TEST(Delta, PlacesTheToolByItsCarriages) {
     for (const double x : {-80.0, 0.0, 33.3, 80.0}) {
         const AxisCounts at{steps(0, x), steps(1, -x / 2), steps(2, 100 + x), 17};
         const MotorCounts motors = kinematics.motors_at(at);
-        EXPECT_EQ(motors[3], 17);
+        EXPECT_EQ(motors.steps[3], 17);
         const AxisCounts back = kinematics.axes_at(motors);
         EXPECT_EQ(kinematics.motors_at(back), motors);
         EXPECT_EQ(kinematics.astray(motors), std::nullopt);
         for (std::size_t i = 0; i < 3; ++i) {
-            EXPECT_LE(std::abs(back[i] - at[i]), kinematics.rest_steps(i) + 1) << "axis " << i;
+            EXPECT_LE(std::abs(back[i] - at[i]), kinematics.rest_steps(AxisIndex{i}) + 1) << "axis " << i;
         }
     }
-    EXPECT_FALSE(kinematics.own_motor(0));
-    EXPECT_EQ(kinematics.own_motor(3), 3U);
-    EXPECT_EQ(kinematics.motors_of_axes(axis_bit(0)), axis_bit(0) | axis_bit(1) | axis_bit(2));
+    EXPECT_FALSE(kinematics.own_motor(AxisIndex{0}));
+    EXPECT_EQ(kinematics.own_motor(AxisIndex{3}), 3U);
+    EXPECT_EQ(kinematics.motors_of_axes({AxisIndex{0}}), MotorSet::first(3));
     EXPECT_TRUE(kinematics.astray({{0, 400'000, -400'000, 0}})) << "the rods cannot meet there";
 }
 
@@ -181,12 +181,12 @@ TEST(Delta, KnowsTheSpeedOfTheTool) {
         later.push_back(Position::steps(counts[m] + std::llround(speeds[m] * kTicks)));
     }
     for (std::size_t i = 0; i < 4; ++i) {
-        const double change = kinematics.axis_steps(i, later) - kinematics.axis_steps(i, now);
-        EXPECT_NEAR(kinematics.axis_speed(i, now, speeds), change / kTicks, 0.01) << "axis " << i;
+        const double change = kinematics.axis_steps(AxisIndex{i}, later) - kinematics.axis_steps(AxisIndex{i}, now);
+        EXPECT_NEAR(kinematics.axis_speed(AxisIndex{i}, now, speeds), change / kTicks, 0.01) << "axis " << i;
     }
     const std::vector<double> up{0.1, 0.1, 0.1, 0};
-    EXPECT_NEAR(kinematics.axis_speed(0, now, up), 0, 1e-12);
-    EXPECT_NEAR(kinematics.axis_speed(2, now, up), 1.6, 1e-12);
+    EXPECT_NEAR(kinematics.axis_speed(AxisIndex{0}, now, up), 0, 1e-12);
+    EXPECT_NEAR(kinematics.axis_speed(AxisIndex{2}, now, up), 1.6, 1e-12);
 }
 
 }  // namespace

@@ -160,7 +160,8 @@ TEST(Inputs, BecomeTheSetupOfTheirDevice) {
     EXPECT_EQ(setup.debounce[3], Ticks{1000});
     EXPECT_EQ(setup.debounce[4], Ticks{0});
     EXPECT_EQ(setup.debounce[7], Ticks{20'000});
-    EXPECT_EQ(setup_of(*read, MotorConfig{.name = "Y", .axis = 0}), DeviceSetup{}) << "a motor without inputs";
+    EXPECT_EQ(setup_of(*read, MotorConfig{.name = "Y", .axis = AxisIndex{0}}), DeviceSetup{})
+        << "a motor without inputs";
 }
 
 TEST(Inputs, ThatTheDeviceDoesNotHaveAreRefusedBeforeAnythingMoves) {

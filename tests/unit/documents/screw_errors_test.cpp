@@ -94,8 +94,8 @@ TEST(ScrewOfAMachine, LeavesTheMotorItsStepsAndTheAxisItsMotor) {
     ASSERT_TRUE(machine) << to_text("m", machine.error());
     const Kinematics kinematics(*machine);
     EXPECT_EQ(kinematics.motors()[0].steps_per_mm, 400);
-    EXPECT_EQ(kinematics.own_motor(0), 0U);
-    EXPECT_EQ(kinematics.label(0), "axis X");
+    EXPECT_EQ(kinematics.own_motor(AxisIndex{0}), 0U);
+    EXPECT_EQ(kinematics.label(MotorIndex{0}), "axis X");
 }
 
 TEST(ScrewOfAMachine, IsCorrectedByMirroredAndGearedMotorsToo) {

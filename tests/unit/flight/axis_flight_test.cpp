@@ -18,7 +18,7 @@ struct IncidentCount : FlightLog {
 
 class AxisNotes : public testing::Test {
 protected:
-    AxisNotes() : flight_(0, {.axes = {AxisConfig{.name = "X"}, AxisConfig{.name = "Y"}}}, incidents_) {
+    AxisNotes() : flight_(MotorIndex{0}, {.axes = {AxisConfig{.name = "X"}, AxisConfig{.name = "Y"}}}, incidents_) {
         const std::vector<MachineState> running{{.phase = MachinePhase::Running, .epoch = kEpoch}};
         flight_.take({.now = Tick{++now_}, .coordinator = running}, {});
         notice(AxisNotice::Kind::EpochBegun, kEpoch);

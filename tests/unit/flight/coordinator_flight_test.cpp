@@ -62,7 +62,7 @@ TEST_F(CoordinatorNotes, NameAnAxisOnlyForAFaultOfAnAxis) {
     for (const FlightEvent& event : notes_.events) {
         if (event.kind == FlightKind::Fault) { about.push_back(event.about); }
     }
-    EXPECT_THAT(about, ElementsAre(FlightPeer{}, flight_axis(1)));
+    EXPECT_THAT(about, ElementsAre(FlightPeer{}, flight_axis(MotorIndex{1})));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ TEST_F(Ring, IsReadAsItWasWritten) {
     FlightRing ring = FlightRing::create(rings(), source(), 100).value();
     const FlightEvent event{.tick = Tick{-5},
                             .kind = FlightKind::Vetoed,
-                            .about = flight_axis(31),
+                            .about = flight_axis(MotorIndex{31}),
                             .detail = 2,
                             .fault = FaultCode::LimitHit,
                             .epoch = 0xFFFF'FFFF'FFFF'FFFFU,

@@ -88,7 +88,7 @@ TEST_F(IncidentFile, EveryKindOfEventComesBack) {
         const NumberedEvent event{3,
                                   {.tick = Tick{12},
                                    .kind = static_cast<FlightKind>(kind),
-                                   .about = kind % 2 == 0 ? flight_axis(1) : kFlightCoordinator,
+                                   .about = kind % 2 == 0 ? flight_axis(MotorIndex{1}) : kFlightCoordinator,
                                    .detail = 4,
                                    .fault = FaultCode::AxisLost,
                                    .epoch = 8,

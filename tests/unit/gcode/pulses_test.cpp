@@ -12,7 +12,7 @@ using Kind = ProgramEvent::Kind;
 
 GcodeSetup with_camera() {
     GcodeSetup setup = three_axes();
-    setup.pulses = {{.number = 3, .axis = 0, .steps_per_mm = 80, .least_spacing_mm = 0.01}};
+    setup.pulses = {{.number = 3, .axis = AxisIndex{0}, .steps_per_mm = 80, .least_spacing_mm = 0.01}};
     return setup;
 }
 

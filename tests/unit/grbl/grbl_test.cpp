@@ -354,7 +354,7 @@ TEST_F(Sender, SeesAJogFromItsAnswerToItsEnd) {
 TEST_F(Sender, HomesAllAxesOrOne) {
     EXPECT_THAT(send("$H\n$G\n"), ElementsAre());
     ASSERT_THAT(asked(), ElementsAre(Kind::Home));
-    EXPECT_EQ(requests[0].axes, 0u);
+    EXPECT_TRUE(requests[0].axes.empty());
     change(MachinePhase::Homing);
     EXPECT_THAT(status(), StartsWith("<Home|"));
     change(MachinePhase::Idle);
@@ -362,7 +362,7 @@ TEST_F(Sender, HomesAllAxesOrOne) {
     EXPECT_THAT(lines(), ElementsAre("ok", StartsWith("[GC:"), "ok"));
     (void)send("$HY\n");
     ASSERT_THAT(asked(), ElementsAre(Kind::Home));
-    EXPECT_EQ(requests[0].axes, 2u);
+    EXPECT_EQ(requests[0].axes, AxisSet{AxisIndex{1}});
     grbl.answer(requests[0].number, {.why = FaultCode::HomeSwitchNotFound, .text = "no switch"});
     EXPECT_THAT(lines(), ElementsAre("[MSG:no switch]", "error:9"));
     EXPECT_THAT(send("$HQ\n"), testing::Contains("error:3"));

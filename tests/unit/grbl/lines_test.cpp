@@ -227,7 +227,7 @@ TEST_F(Lines, NameThemselvesInTheStatus) {
 
 TEST_F(Lines, TheHomeSwitchIsInTheStatusWhileItIsClosed) {
     EXPECT_THAT(status(), Not(HasSubstr("|Pn:")));
-    (void)vm.command(CommandKind::Home, axis_bit(kY));
+    (void)vm.command(CommandKind::Home, {AxisIndex{kY}});
     EXPECT_TRUE(passes_until([&] { return status().find("|Pn:Y") != std::string::npos; }, 10));
     EXPECT_TRUE(becomes_idle(20));
     EXPECT_THAT(status(), Not(HasSubstr("|Pn:")));

@@ -37,7 +37,7 @@ MachineView view_at_limit(const MachineConfig& machine, std::size_t motor) {
     std::vector<const AxisState*> states;
     for (const AxisState& state : motors) { states.push_back(&state); }
     std::vector<AxisState> axes;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         axes.push_back(axis_state_of(i, kinematics, states).value());
     }
     std::vector<const AxisState*> by_axis;

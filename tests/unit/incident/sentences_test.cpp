@@ -60,7 +60,7 @@ protected:
         incident.machine = small_machine();
         incident.motors = {"axis X", "axis Y"};
         incident.processes = {{.name = "coordinator", .who = kFlightCoordinator},
-                              {.name = "axis X", .who = flight_axis(0)}};
+                              {.name = "axis X", .who = flight_axis(MotorIndex{0})}};
     }
     std::string text(const FlightEvent& event, bool of_axis) const {
         return sentence(incident, {Tick{}, of_axis ? 1U : 0U, event});
@@ -73,7 +73,7 @@ TEST_F(Sentences, NameEveryValueThatExistsAndNumberAllOthers) {
     for (const Detailed& detailed : detailed_kinds()) {
         for (int value = 0; value < kValues; ++value) {
             const FlightEvent event{
-                .kind = detailed.kind, .about = flight_axis(1), .detail = static_cast<std::uint8_t>(value)};
+                .kind = detailed.kind, .about = flight_axis(MotorIndex{1}), .detail = static_cast<std::uint8_t>(value)};
             const std::string said = text(event, detailed.of_axis);
             EXPECT_THAT(said, Not(HasSubstr("unknown"))) << name_of(detailed.kind) << " " << value;
             EXPECT_THAT(said, Not(testing::MatchesRegex("(.*[ :])?"))) << name_of(detailed.kind) << " " << value;
@@ -86,7 +86,8 @@ TEST_F(Sentences, NameEveryValueThatExistsAndNumberAllOthers) {
 TEST_F(Sentences, OfEveryKindHaveNoUnknownPart) {
     for (int kind = 0; kind < kValues; ++kind) {
         if (!enumerators<FlightKind>()[static_cast<std::size_t>(kind)]) { continue; }
-        for (const FlightPeer about : {FlightPeer{}, flight_axis(1), flight_axis(kMaxAxes - 1), kFlightCoordinator}) {
+        for (const FlightPeer about :
+             {FlightPeer{}, flight_axis(MotorIndex{1}), flight_axis(MotorIndex{kMaxAxes - 1}), kFlightCoordinator}) {
             const FlightEvent event{
                 .kind = static_cast<FlightKind>(kind), .about = about, .fault = FaultCode::LimitHit};
             for (const bool of_axis : {false, true}) {
@@ -102,7 +103,8 @@ TEST_F(Sentences, NameEveryFaultAndNumberAllOthers) {
     for (const FlightKind kind : {FlightKind::PeerFault, FlightKind::FrameRefused, FlightKind::Fault,
                                   FlightKind::CommandRefused, FlightKind::PositionClaimed}) {
         for (int code = 1; code < 1000; ++code) {
-            const FlightEvent event{.kind = kind, .about = flight_axis(1), .fault = static_cast<FaultCode>(code)};
+            const FlightEvent event{
+                .kind = kind, .about = flight_axis(MotorIndex{1}), .fault = static_cast<FaultCode>(code)};
             const FaultText* fault = find_fault(event.fault);
             const std::string part = fault == nullptr ? "number " + std::to_string(code) : std::string(fault->name);
             EXPECT_THAT(text(event, true), HasSubstr(part));
@@ -121,7 +123,8 @@ TEST_F(Sentences, NameEveryStageOfHomingAndNumberAllOthers) {
 }
 
 TEST_F(Sentences, NameNoAxisForAFaultOfTheWholeMachine) {
-    const FlightEvent event{.kind = FlightKind::Fault, .about = flight_axis(0), .fault = FaultCode::EmergencyStopped};
+    const FlightEvent event{
+        .kind = FlightKind::Fault, .about = flight_axis(MotorIndex{0}), .fault = FaultCode::EmergencyStopped};
     EXPECT_THAT(text(event, false), testing::StartsWith("fault: emergency-stopped"));
 }
 

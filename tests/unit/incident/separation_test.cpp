@@ -41,9 +41,9 @@ TEST_F(Separated, AnEmergencyStopAtRestAndOneInMotionAreTwoIncidents) {
         EXPECT_EQ(one.cause.kind, CauseKind::EmergencyStop) << testing::PrintToString(one.story);
     }
     EXPECT_EQ(found[0].story[2], "no axis was moving");
-    EXPECT_EQ(found[0].moving, 0U);
+    EXPECT_TRUE(found[0].moving.empty());
     EXPECT_THAT(found[1].story[2], HasSubstr("axis X and axis Y were moving; all axes at rest"));
-    EXPECT_EQ(found[1].moving, axis_bit(kX) | axis_bit(kY));
+    EXPECT_EQ(found[1].moving, (MotorSet{MotorIndex{kX}, MotorIndex{kY}}));
     EXPECT_TRUE(found[1].rest);
 }
 
@@ -78,7 +78,7 @@ TEST_F(Separated, TwoStopsBeforeAResetAreOneIncident) {
     stop_at_once();
     const auto found = evaluations();
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_NE(found[0].moving, 0U);
+    EXPECT_FALSE(found[0].moving.empty());
 }
 
 TEST_F(Separated, AnInterruptionAndALaterFaultAreTwoIncidents) {
@@ -107,10 +107,10 @@ TEST_F(Separated, AnAbsenceAndALaterStallAreTwoIncidents) {
     const auto found = evaluations();
     ASSERT_EQ(found.size(), 2U);
     EXPECT_EQ(found[0].cause.kind, CauseKind::Ended) << testing::PrintToString(found[0].story);
-    EXPECT_EQ(found[0].cause.who, flight_axis(kY));
+    EXPECT_EQ(found[0].cause.who, flight_axis(MotorIndex{kY}));
     EXPECT_EQ(found[1].cause.kind, CauseKind::Stalled) << testing::PrintToString(found[1].story);
-    EXPECT_EQ(found[1].cause.who, flight_axis(kX));
-    EXPECT_NE(found[1].moving, 0U);
+    EXPECT_EQ(found[1].cause.who, flight_axis(MotorIndex{kX}));
+    EXPECT_FALSE(found[1].moving.empty());
 }
 
 struct Injected {

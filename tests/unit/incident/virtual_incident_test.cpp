@@ -45,7 +45,7 @@ TEST_F(Flown, AnAxisThatStoodStillIsFound) {
     inject({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.02)});
     wait(1);
     const Evaluation found = evaluation();
-    expect(found, CauseKind::Stalled, flight_axis(kY));
+    expect(found, CauseKind::Stalled, flight_axis(MotorIndex{kY}));
     EXPECT_NEAR(vm.machine().microseconds(found.cause.lasts), 20'000, 1000);
     EXPECT_THAT(found.story[0], HasSubstr("axis Y stalled: its loop did not run for 20 ms; the machine allows 1.0 ms"));
     EXPECT_THAT(found.story[1], HasSubstr("axis X vetoes frame"));
@@ -55,7 +55,7 @@ TEST_F(Flown, AnAxisThatEndedIsFound) {
     start_job();
     inject({.kind = Kind::Crash, .process = kY, .lasts = seconds(0.3)});
     wait(2);
-    expect(evaluation(), CauseKind::Ended, flight_axis(kY));
+    expect(evaluation(), CauseKind::Ended, flight_axis(MotorIndex{kY}));
 }
 
 TEST_F(Flown, AFailedCheckIsNamedAsTheCause) {
@@ -73,7 +73,7 @@ TEST_F(Flown, AnAxisThatEndedAtRestIsFound) {
     wait(2);
     const Evaluation found = evaluation();
     EXPECT_EQ(found.cause.kind, CauseKind::Ended);
-    EXPECT_EQ(found.cause.who, flight_axis(kX));
+    EXPECT_EQ(found.cause.who, flight_axis(MotorIndex{kX}));
     EXPECT_FALSE(found.rest) << "none was moving";
 }
 
@@ -96,7 +96,7 @@ TEST_F(Flown, AnAxisThatWasCutOffIsFound) {
     inject({.kind = Kind::Cut, .process = kY, .lasts = seconds(0.1)});
     wait(1);
     const Evaluation found = evaluation();
-    expect(found, CauseKind::CutOff, flight_axis(kY));
+    expect(found, CauseKind::CutOff, flight_axis(MotorIndex{kY}));
     EXPECT_THAT(found.story[0], HasSubstr("it received no messages and no process received its messages"));
 }
 
@@ -105,7 +105,7 @@ TEST_F(Flown, AnAxisThatNoPeerReceivedIsFound) {
     inject({.kind = Kind::Cut, .process = kY, .lasts = seconds(0.1), .incoming = false});
     wait(1);
     const Evaluation found = evaluation();
-    expect(found, CauseKind::CutOff, flight_axis(kY));
+    expect(found, CauseKind::CutOff, flight_axis(MotorIndex{kY}));
     EXPECT_THAT(found.story[0], HasSubstr("no process received its messages, although it ran"));
 }
 
@@ -132,7 +132,7 @@ TEST_F(Flown, ALimitThatWasHitIsFound) {
     vm.device(kX).plant().push(9'000);
     wait(1);
     const Evaluation found = evaluation();
-    expect(found, CauseKind::Fault, flight_axis(kX));
+    expect(found, CauseKind::Fault, flight_axis(MotorIndex{kX}));
     EXPECT_THAT(found.story[0], HasSubstr("axis X: limit-hit"));
 }
 
@@ -155,7 +155,7 @@ TEST_F(Flown, AReconnectionBeforeTheFaultIsNotItsCause) {
     vm.device(kX).plant().push(9'000);
     wait(1);
     const Evaluation found = evaluation();
-    expect(found, CauseKind::Fault, flight_axis(kX));
+    expect(found, CauseKind::Fault, flight_axis(MotorIndex{kX}));
     EXPECT_THAT(found.story[0], HasSubstr("axis X: limit-hit"));
 }
 
@@ -168,7 +168,7 @@ TEST_F(Flown, AnInterruptionFromWhichTheMachineWentOnIsNotTheCauseOfALaterFault)
     vm.device(kX).plant().push(9'000);
     wait(1);
     const Evaluation found = evaluation();
-    expect(found, CauseKind::Fault, flight_axis(kX));
+    expect(found, CauseKind::Fault, flight_axis(MotorIndex{kX}));
     EXPECT_THAT(found.story[0], HasSubstr("axis X: limit-hit"));
 }
 
@@ -181,7 +181,7 @@ TEST_F(Flown, AProcessThatWasReplacedBeforeTheFaultIsNotItsCause) {
     start_job();
     inject({.kind = Kind::Freeze, .process = kY, .lasts = seconds(0.02)});
     wait(1);
-    expect(evaluation(), CauseKind::Stalled, flight_axis(kY));
+    expect(evaluation(), CauseKind::Stalled, flight_axis(MotorIndex{kY}));
 }
 
 TEST_F(Flown, EveryProcessKeepsAnIncidentOfMotion) {

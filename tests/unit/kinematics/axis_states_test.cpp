@@ -32,7 +32,7 @@ MachineConfig belts_of_two() {
 AxisState of(const MachineConfig& machine, std::size_t axis, const std::vector<AxisState>& motors) {
     std::vector<const AxisState*> states;
     for (const AxisState& motor : motors) { states.push_back(&motor); }
-    return axis_state_of(axis, Kinematics(machine), states).value();
+    return axis_state_of(AxisIndex{axis}, Kinematics(machine), states).value();
 }
 
 /// 0.25 steps in each tick.

@@ -75,8 +75,8 @@ TEST(BacklashOfAMotor, IsWholeStepsAndWidensItsTravel) {
 TEST(BacklashOfAMotor, LetsItsAxisMoveOnPathsOnly) {
     const Kinematics kinematics(machine_with_backlash());
     EXPECT_FALSE(kinematics.is_direct());
-    EXPECT_FALSE(kinematics.own_motor(0));
-    EXPECT_EQ(kinematics.own_motor(1), 1U);
+    EXPECT_FALSE(kinematics.own_motor(AxisIndex{0}));
+    EXPECT_EQ(kinematics.own_motor(AxisIndex{1}), 1U);
     const MotorCounts motors{{700, -30}};
     EXPECT_EQ(kinematics.motors_at({700, -30}), motors) << "the places of motors are those of their slides";
     EXPECT_EQ(kinematics.axes_at(motors), (AxisCounts{700, -30}));

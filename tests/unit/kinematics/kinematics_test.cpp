@@ -49,7 +49,7 @@ TEST(PlaceOfTheAxes, RoundsToTheMotorsAtEveryRest) {
         const MotorCounts motors = kinematics.motors_at(axes);
         EXPECT_EQ(kinematics.motors_at(kinematics.axes_at(motors)), motors) << place;
         EXPECT_FALSE(kinematics.astray(motors)) << place;
-        EXPECT_LE(std::abs(kinematics.axes_at(motors)[0] - place), kinematics.rest_steps(0)) << place;
+        EXPECT_LE(std::abs(kinematics.axes_at(motors)[0] - place), kinematics.rest_steps(AxisIndex{0})) << place;
     }
 }
 
@@ -78,7 +78,7 @@ TEST(PlaceOfTheAxes, IsExactIfItsMotorsHaveItsSteps) {
     machine.axes[1].motors = {{.name = "Y1", .steps_per_mm = 80}, {.name = "Y2", .steps_per_mm = 80}};
     machine.kinematics.matrix = {{.motor = "Z", .of = {{"Z", -1}}}};
     const Kinematics kinematics(machine);
-    for (std::size_t i = 0; i < 3; ++i) { EXPECT_EQ(kinematics.rest_steps(i), 0); }
+    for (std::size_t i = 0; i < 3; ++i) { EXPECT_EQ(kinematics.rest_steps(AxisIndex{i}), 0); }
 }
 
 }  // namespace

@@ -120,8 +120,8 @@ TEST(PlaceOfAnAxisWithAScrew, RoundsToTheMotorsAtEveryRest) {
     const MachineConfig machine = corrected_machine();
     const Kinematics kinematics(machine);
     EXPECT_FALSE(kinematics.is_direct());
-    EXPECT_EQ(kinematics.own_motor(0), 0U);
-    EXPECT_FALSE(kinematics.own_motor(1));
+    EXPECT_EQ(kinematics.own_motor(AxisIndex{0}), 0U);
+    EXPECT_FALSE(kinematics.own_motor(AxisIndex{1}));
     const auto end = static_cast<std::int64_t>(200 * machine.axes[0].steps_per_mm);
     for (std::int64_t place = 0; place <= end; place += 37) {
         const AxisCounts axes{place, end - place};
@@ -130,7 +130,7 @@ TEST(PlaceOfAnAxisWithAScrew, RoundsToTheMotorsAtEveryRest) {
         ASSERT_EQ(kinematics.motors_at(back), motors) << place;
         ASSERT_FALSE(kinematics.astray(motors)) << place;
         for (std::size_t i = 0; i < 2; ++i) {
-            ASSERT_LE(std::abs(back[i] - axes[i]), kinematics.rest_steps(i)) << place;
+            ASSERT_LE(std::abs(back[i] - axes[i]), kinematics.rest_steps(AxisIndex{i})) << place;
         }
     }
 }
@@ -158,10 +158,10 @@ TEST(MotorsOfAGantryWithScrews, ParkWhereAPlaceOfTheirAxisPutsThem) {
 TEST(SpeedOfAnAxisWithAScrew, IsThatOfItsSlide) {
     const Kinematics kinematics(corrected_machine());
     const std::vector<Position> motors{Position::steps(10'000), Position::steps(0), Position::steps(0)};
-    const double before = kinematics.axis_steps(0, motors);
+    const double before = kinematics.axis_steps(AxisIndex{0}, motors);
     const std::vector<Position> behind{Position::steps(10'001), Position::steps(0), Position::steps(0)};
-    const double step = kinematics.axis_steps(0, behind) - before;
-    EXPECT_NEAR(kinematics.axis_speed(0, motors, std::vector<double>{0.25, 0, 0}), 0.25 * step, 1e-6);
+    const double step = kinematics.axis_steps(AxisIndex{0}, behind) - before;
+    EXPECT_NEAR(kinematics.axis_speed(AxisIndex{0}, motors, std::vector<double>{0.25, 0, 0}), 0.25 * step, 1e-6);
 }
 
 }  // namespace

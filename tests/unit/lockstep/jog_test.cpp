@@ -24,8 +24,8 @@ MachineConfig machine_to_jog() {
 TEST(JogWords, NameAxesAndDirections) {
     const auto jogs = jog_axes(machine_to_jog(), {.words = {"X+", "z-"}, .distance_mm = 3});
     ASSERT_TRUE(jogs) << jogs.error();
-    EXPECT_EQ(*jogs, (std::vector<JogAxis>{{0, 10, 3}, {2, -4, 3}}));
-    EXPECT_EQ(jog_axes(machine_to_jog(), {.words = {"Y-"}, .speed_mm_s = 50})->front(), (JogAxis{1, -50}));
+    EXPECT_EQ(*jogs, (std::vector<JogAxis>{{AxisIndex{0}, 10, 3}, {AxisIndex{2}, -4, 3}}));
+    EXPECT_EQ(jog_axes(machine_to_jog(), {.words = {"Y-"}, .speed_mm_s = 50})->front(), (JogAxis{AxisIndex{1}, -50}));
 }
 
 TEST(JogWords, ThatMakeNoSenseAreRefusedWithTheReason) {
@@ -51,7 +51,7 @@ protected:
 
 TEST_F(TypedKeys, JogForAHundredAndFiftyMilliseconds) {
     keys.take("\x1b[C", 1s);
-    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{0, 10}}));
+    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{AxisIndex{0}, 10}}));
     EXPECT_FALSE(keys.jogs(1s + 150ms).empty());
     EXPECT_TRUE(keys.jogs(1s + 151ms).empty());
     keys.take("\x1b[C", 1s + 140ms);
@@ -60,9 +60,9 @@ TEST_F(TypedKeys, JogForAHundredAndFiftyMilliseconds) {
 
 TEST_F(TypedKeys, OfSeveralAxesJogThemTogetherAndOppositeOnesReplaceEachOther) {
     keys.take("\x1b[C\x1b[Bu", 1s);
-    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{0, 10}, {1, -10}, {3, 10}}));
+    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{AxisIndex{0}, 10}, {AxisIndex{1}, -10}, {AxisIndex{3}, 10}}));
     keys.take("\x1b[D", 1s);
-    EXPECT_EQ(keys.jogs(1s).front(), (JogAxis{0, -10}));
+    EXPECT_EQ(keys.jogs(1s).front(), (JogAxis{AxisIndex{0}, -10}));
 }
 
 TEST_F(TypedKeys, ComeInPartsAndInBothForms) {
@@ -70,9 +70,9 @@ TEST_F(TypedKeys, ComeInPartsAndInBothForms) {
     keys.take("[", 1s);
     EXPECT_TRUE(keys.jogs(1s).empty());
     keys.take("5~", 1s);
-    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{2, 4}}));
+    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{AxisIndex{2}, 4}}));
     keys.take(" \x1bOA", 1s);
-    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{1, 10}}));
+    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{AxisIndex{1}, 10}}));
 }
 
 TEST_F(TypedKeys, ChangeTheSpeedAndReleaseWhatIsHeld) {
@@ -114,10 +114,10 @@ TEST(JogKeys, WithADistanceEachPressIsOneStepAndWhatComesDuringAStepIsOneMore) {
     JogKeys keys(machine, 0.1);
     EXPECT_FALSE(keys.take_step());
     keys.take("\x1b[C", 1s);
-    EXPECT_EQ(keys.take_step(), (JogAxis{0, 10, 0.1}));
+    EXPECT_EQ(keys.take_step(), (JogAxis{AxisIndex{0}, 10, 0.1}));
     EXPECT_FALSE(keys.take_step()) << "once";
     for (int i = 0; i < 20; ++i) { keys.take("\x1b[D", 1s + i * 30ms); }
-    EXPECT_EQ(keys.take_step(), (JogAxis{0, -10, 0.1}));
+    EXPECT_EQ(keys.take_step(), (JogAxis{AxisIndex{0}, -10, 0.1}));
     EXPECT_FALSE(keys.take_step()) << "repetitions are not stored up";
     keys.take("\x1b[C ", 3s);
     EXPECT_FALSE(keys.take_step()) << "space drops it";

@@ -22,7 +22,7 @@ MachineConfig machine_by(TimeSource source) {
 TEST(FrameLimits, LeaveRoomForWhatTheClocksChange) {
     const MachineConfig machine = machine_by(TimeSource::Network);
     const AxisLimits own = limits_of(machine.axes[0], machine.tick_ns);
-    const AxisLimits frames = frame_limits_of(machine, 0);
+    const AxisLimits frames = frame_limits_of(machine, MotorIndex{0});
     EXPECT_DOUBLE_EQ(frames.max_velocity, own.max_velocity * (1 - clock_reserve::kSpeed));
     EXPECT_DOUBLE_EQ(frames.start_velocity, own.start_velocity * (1 - clock_reserve::kAcceleration));
     EXPECT_DOUBLE_EQ(frames.max_acceleration, own.max_acceleration * (1 - clock_reserve::kAcceleration));
@@ -34,13 +34,16 @@ TEST(FrameLimits, LeaveRoomOnlyForAnAxisWhoseDeviceHasAClockOfItsOwn) {
     MachineConfig machine = machine_by(TimeSource::Shared);
     machine.axes.push_back(machine.axes[0]);
     machine.axes[1].device = {DeviceName::Kind::Mapped, "/dev/uio0"};
-    EXPECT_EQ(frame_limits_of(machine, 0).max_velocity, limits_of(machine.axes[0], machine.tick_ns).max_velocity);
-    EXPECT_LT(frame_limits_of(machine, 1).max_velocity, limits_of(machine.axes[1], machine.tick_ns).max_velocity);
+    EXPECT_EQ(frame_limits_of(machine, MotorIndex{0}).max_velocity,
+              limits_of(machine.axes[0], machine.tick_ns).max_velocity);
+    EXPECT_LT(frame_limits_of(machine, MotorIndex{1}).max_velocity,
+              limits_of(machine.axes[1], machine.tick_ns).max_velocity);
 }
 
 TEST(FrameLimits, AreTheAxisOwnWhereAllHaveOneClock) {
     const MachineConfig machine = machine_by(TimeSource::Ptp);
-    EXPECT_EQ(frame_limits_of(machine, 0).start_velocity, limits_of(machine.axes[0], machine.tick_ns).start_velocity);
+    EXPECT_EQ(frame_limits_of(machine, MotorIndex{0}).start_velocity,
+              limits_of(machine.axes[0], machine.tick_ns).start_velocity);
 }
 
 }  // namespace

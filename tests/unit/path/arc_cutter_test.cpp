@@ -18,7 +18,7 @@ PathSetup mill_setup() {
 struct Shape {
     double deviation = 0;
     double length = 0;
-    AxisVector end;
+    PlaceVector end;
 };
 
 Shape shape_of(const std::vector<Quadratic>& pieces, double x, double y, double radius) {
@@ -38,7 +38,7 @@ Shape shape_of(const std::vector<Quadratic>& pieces, double x, double y, double 
 
 std::vector<Quadratic> cut(const PathArc& arc, const std::vector<double>& from_mm) {
     PathTrail trail;
-    const AxisVector from = mill_setup().to_steps(from_mm);
+    const PlaceVector from = mill_setup().to_steps(from_mm);
     EXPECT_TRUE(cut_arc(mill_setup(), arc.shape, {from, from, mill_setup().to_steps(arc.to_mm)}, {}, 1, trail));
     std::vector<Quadratic> pieces;
     for (std::size_t k = 0; k < trail.end(); ++k) { pieces.push_back(trail.piece(k)); }
@@ -126,8 +126,8 @@ TEST(ArcCutter, FollowsEachSpiralThatAProgramMayHave) {
 
 TEST(ArcCutter, LeavesAnArcWithARadiusBelowTheStepsToALine) {
     PathTrail trail;
-    const AxisVector from = mill_setup().to_steps(std::vector<double>{0, 0, 0});
-    const AxisVector to = mill_setup().to_steps(std::vector<double>{0.005, 0, 0});
+    const PlaceVector from = mill_setup().to_steps(std::vector<double>{0, 0, 0});
+    const PlaceVector to = mill_setup().to_steps(std::vector<double>{0.005, 0, 0});
     EXPECT_FALSE(cut_arc(mill_setup(), {.centre_first_mm = 0.0025}, {from, from, to}, {}, 1, trail));
     EXPECT_EQ(trail.end(), 0U);
 }

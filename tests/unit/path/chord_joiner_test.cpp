@@ -25,7 +25,7 @@ std::vector<Quadratic> pieces_of(const PathTrail& trail) {
 /// Joins the chords. Chord k has block k.
 PathTrail trail_of(const Chords& chords) {
     ChordJoiner joiner(plane());
-    joiner.begin(zeros(2));
+    joiner.begin(PlaceVector::zeros(2));
     PathTrail trail;
     std::uint32_t block = 0;
     for (const auto& [x, y] : chords.to_mm) { joiner.add({x * 80, y * 80}, chords.settings, ++block, trail); }
@@ -102,10 +102,10 @@ TEST(ChordJoiner, StaysWithinTheTravelHoweverWideTheTolerance) {
     setup.limits[1].max_steps = 80;
     ChordJoiner joiner(setup);
     PathTrail trail;
-    joiner.begin(zeros(2));
+    joiner.begin(PlaceVector::zeros(2));
     for (std::uint32_t k = 1; k <= 200; ++k) {
         const double x = 4.0 * k;
-        AxisVector at = zeros(2);
+        PlaceVector at = PlaceVector::zeros(2);
         at[0] = x;
         at[1] = std::min(80.0, 160 * std::sin(x / 255));
         joiner.add(at, {.feed_mm_per_tick = 1e-4, .tolerance_mm = 0.5}, k, trail);
@@ -118,7 +118,7 @@ TEST(ChordJoiner, StaysWithinTheTravelHoweverWideTheTolerance) {
 
 TEST(ChordJoiner, EndsPiecesWhereTheFeedChanges) {
     ChordJoiner joiner(plane());
-    joiner.begin(zeros(2));
+    joiner.begin(PlaceVector::zeros(2));
     PathTrail trail;
     for (std::uint32_t k = 1; k <= 40; ++k) {
         joiner.add({8.0 * k, 0}, {.feed_mm_per_tick = k <= 20 ? 1e-4 : 2e-4}, k, trail);

@@ -15,7 +15,9 @@ constexpr std::array<DeltaMap::Tower, 3> kTowers{{{-130, -75, 320}, {130, -75, 3
 /// X, Y and Z by three carriages, and E by a motor of its own.
 PathSetup delta_setup() {
     const DeltaMap map(kTowers);
-    MachineDelta delta{.map = map, .axes = {0, 1, 2}, .motors = {0, 1, 2}};
+    MachineDelta delta{.map = map,
+                       .axes = {AxisIndex{0}, AxisIndex{1}, AxisIndex{2}},
+                       .motors = {MotorIndex{0}, MotorIndex{1}, MotorIndex{2}}};
     delta.axis_steps_per_mm = {kAxisPerMm, kAxisPerMm, kAxisPerMm};
     delta.motor_steps_per_mm = {kPerMm, kPerMm, kPerMm};
     LinearMap shares = LinearMap::identity(4);

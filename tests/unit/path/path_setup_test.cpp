@@ -23,7 +23,7 @@ MachineConfig fine_belts() {
 
 TEST(PathSetup, LimitsTheSpeedOfAnAxisByItsFileAndNotByTheStepsOfADevice) {
     const PathSetup setup = path_setup_of(fine_belts());
-    EXPECT_DOUBLE_EQ(setup.limits_of_axis(0).max_velocity, 150 * 6400e-6);
+    EXPECT_DOUBLE_EQ(setup.limits_of_axis(AxisIndex{0}).max_velocity, 150 * 6400e-6);
     EXPECT_LE(setup.limits[0].max_velocity, kMaxPlannedStepsPerTick);
     PathPlanner planner(setup);
     planner.begin(std::vector<Position>(2));

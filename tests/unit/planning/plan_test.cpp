@@ -46,7 +46,7 @@ TEST(Plan, WithinTheLimitsOfEachAxisAndAsFarAsItGoes) {
     const auto program = load_gcode_file("deploy/examples/plate.gcode", machine, parked_mm(machine));
     const auto plan = plan_program(machine, *program);
     ASSERT_TRUE(plan.has_value());
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         const double tick_s = static_cast<double>(machine.tick_ns) * 1e-9;
         const double by_rounding = 2 * machine.axes[i].max_accel_mm_s2 * tick_s;  // the check of pieces allows for this
         EXPECT_LE(plan->axes[i].peak_velocity_mm_s, machine.axes[i].max_velocity_mm_s * (1 + 1e-6) + by_rounding);
@@ -112,7 +112,7 @@ TEST(Plan, HasThePeaksOfTheMotionItself) {
         const auto timed = plan_program(machine, program);
         const auto legs = plan_legs(machine, program, start_counts(machine, program.head()));
         ASSERT_TRUE(plan.has_value() && timed.has_value() && legs.has_value());
-        for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        for (const AxisIndex i : axis_indices(machine.axes.size())) {
             const AxisConfig& axis = machine.axes[i];
             Followed made;
             for (const LegPlan& leg : *legs) { made.follow(leg, i, sample); }

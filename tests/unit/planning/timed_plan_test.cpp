@@ -92,7 +92,7 @@ void expect_agreement(const MachineConfig& machine, const ProgramPlan& timed, co
     EXPECT_EQ(timed.pauses, made.pauses);
     EXPECT_EQ(timed.length_mm, made.length_mm);
     EXPECT_NEAR(timed.duration_s, made.duration_s, 0.001 * made.duration_s);
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         const AxisConfig& axis = machine.axes[i];
         SCOPED_TRACE(axis.name);
         const AxisPlan& a = timed.axes[i];
@@ -179,7 +179,7 @@ TEST(TimedPlan, HasTheFiguresOfTheFramesOfLai) {
         EXPECT_EQ(timed->duration, made->duration);
         EXPECT_EQ(timed->moves, made->moves);
         EXPECT_EQ(timed->pauses, made->pauses);
-        for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        for (const AxisIndex i : axis_indices(machine.axes.size())) {
             EXPECT_EQ(timed->axes[i].steps, made->axes[i].steps);
             EXPECT_NEAR(timed->axes[i].peak_velocity_mm_s, made->axes[i].peak_velocity_mm_s, 1e-6);
             EXPECT_NEAR(timed->axes[i].peak_acceleration_mm_s2, made->axes[i].peak_acceleration_mm_s2, 1e-6);

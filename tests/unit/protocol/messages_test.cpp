@@ -43,7 +43,7 @@ TEST(Messages, OfAMachineThatNobodyFilledInSayNothing) {
     EXPECT_FALSE(machine.lacks_blocks);
     EXPECT_EQ(machine.progress, 0);
     EXPECT_EQ(machine.remaining_s, 0);
-    EXPECT_EQ(machine.axes_present, 0u);
+    EXPECT_TRUE(machine.motors_present.empty());
     EXPECT_FALSE(machine.program);
     EXPECT_EQ(machine.events_from, 0u);
     EXPECT_EQ(machine.lost_records, 0u);
@@ -80,7 +80,7 @@ TEST(Messages, OfAnEventThatNobodyFilledInSayThatAProgramAskedForItAndNoMore) {
 TEST(Messages, OfAClientAndToItThatNobodyFilledInAskForNothing) {
     const Command command;
     EXPECT_EQ(command.kind, CommandKind::Stop);
-    EXPECT_EQ(command.axes, 0u);
+    EXPECT_TRUE(command.axes.empty());
     EXPECT_EQ(command.program, 0u);
     EXPECT_FALSE(command.ticks);
     EXPECT_FALSE(command.feed_percent);

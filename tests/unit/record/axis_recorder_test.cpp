@@ -31,7 +31,7 @@ class TheRecord : public testing::Test {
 protected:
     MachineConfig machine{.name = "mill", .axes = {{.name = "X", .steps_per_mm = 80}}};
     Batches sink;
-    AxisRecorder recorder{machine, 0, 7, sink};
+    AxisRecorder recorder{machine, MotorIndex{0}, 7, sink};
 };
 
 class Sizes : public RecordSink {
@@ -45,7 +45,7 @@ public:
 TEST(RecordOfAStalledAxis, AllocatesNothingForTheLargestMessageOfSteps) {
     const MachineConfig machine{.name = "mill", .axes = {{.name = "X", .steps_per_mm = 80}}};
     Sizes sink;
-    AxisRecorder recorder(machine, 0, 7, sink);
+    AxisRecorder recorder(machine, MotorIndex{0}, 7, sink);
     recorder.reserve(2 * StepBatcher::kMaxSteps, 0);
     recorder.loop(outputs_at(0, 100), 0, 0);
     const AxisOutputs out;

@@ -56,7 +56,7 @@ TEST_F(Keys, LetEveryMemberIn) {
 
 TEST_F(Keys, AreNotNeededWithoutSecurity) {
     machine_.security = {};
-    const auto admission = admit(machine_, axis_member(machine_, 1));
+    const auto admission = admit(machine_, axis_member(machine_, MotorIndex{1}));
     ASSERT_TRUE(admission);
     EXPECT_FALSE(admission->membership.credentials);
     EXPECT_EQ(admission->membership.axis, 1U);
@@ -102,12 +102,12 @@ TEST_F(Keys, ExpireOnTheirDateAndWarnBefore) {
 
 TEST_F(Keys, NameWhatExpiredTheClockAndTheRemedy) {
     make(std::chrono::days(100));
-    const auto expired = errors_of(axis_member(machine_, 0), std::chrono::days(101));
+    const auto expired = errors_of(axis_member(machine_, MotorIndex{0}), std::chrono::days(101));
     ASSERT_EQ(expired.size(), 1U);
     EXPECT_THAT(expired[0],
                 AllOf(HasSubstr("the certificate of axis-X expired on 20"), HasSubstr("this host's clock says 20"),
                       HasSubstr("lockstep keys make --force"), HasSubstr("if that clock is wrong, set it")));
-    const auto early = errors_of(axis_member(machine_, 0), -std::chrono::days(10 * 365));
+    const auto early = errors_of(axis_member(machine_, MotorIndex{0}), -std::chrono::days(10 * 365));
     ASSERT_EQ(early.size(), 1U);
     EXPECT_THAT(early[0], AllOf(HasSubstr("the certificate of axis-X is valid only from 20"),
                                 HasSubstr("this host's clock says 20"), HasSubstr("set this host's clock")));
@@ -182,7 +182,7 @@ TEST_F(Keys, OfAnotherRunAreNotMixed) {
 TEST_F(Keys, AreMadeForOneMachineAndItsOrderOfAxes) {
     make();
     std::swap(machine_.axes[0], machine_.axes[1]);
-    EXPECT_THAT(errors_of(axis_member(machine_, 0)), ElementsAre(HasSubstr("order of axes")));
+    EXPECT_THAT(errors_of(axis_member(machine_, MotorIndex{0})), ElementsAre(HasSubstr("order of axes")));
     EXPECT_THAT(errors_of(client_member()), IsEmpty());
     machine_.network.domain = 5;
     EXPECT_THAT(errors_of(client_member()), ElementsAre(HasSubstr("governance.p7s"), HasSubstr("client.p7s")));

@@ -29,16 +29,17 @@ TEST(Rights, OnlyACoordinatorSendsSetpoints) {
     const std::string setpoint = "<topic>lockstep/setpoint</topic>";
     EXPECT_THAT(published(coordinator_member()), HasSubstr(setpoint));
     EXPECT_THAT(published(standby_member()), HasSubstr(setpoint));
-    for (const Member& member : {axis_member(mill(), 0), client_member(), viewer_member()}) {
+    for (const Member& member : {axis_member(mill(), MotorIndex{0}), client_member(), viewer_member()}) {
         EXPECT_THAT(published(member), Not(HasSubstr(setpoint))) << member.name;
     }
 }
 
 TEST(Rights, AnAxisWritesInItsOwnPartitionAlone) {
     const std::string machine = partition_of("mill");
-    EXPECT_THAT(published(axis_member(mill(), 1)), HasSubstr("<partition>" + machine + "/1</partition>"));
-    EXPECT_THAT(published(axis_member(mill(), 1)), Not(HasSubstr("<partition>" + machine + "</partition>")));
-    EXPECT_THAT(published(axis_member(mill(), 1)), Not(HasSubstr(machine + "/0")));
+    EXPECT_THAT(published(axis_member(mill(), MotorIndex{1})), HasSubstr("<partition>" + machine + "/1</partition>"));
+    EXPECT_THAT(published(axis_member(mill(), MotorIndex{1})),
+                Not(HasSubstr("<partition>" + machine + "</partition>")));
+    EXPECT_THAT(published(axis_member(mill(), MotorIndex{1})), Not(HasSubstr(machine + "/0")));
 }
 
 TEST(Rights, AViewerPublishesNothing) { EXPECT_THAT(published(viewer_member()), Not(HasSubstr("<publish>"))); }

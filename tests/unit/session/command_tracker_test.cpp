@@ -187,7 +187,7 @@ TEST_F(Follower, AnEmergencyStopWaitsForNothing) {
 TEST_F(Follower, AJogIsRenewedEvery5MillisecondsAlsoAfterItsAnswer) {
     answer_after = 10ms;
     period = 1ms;
-    follow({.kind = CommandKind::Jog, .jogs = {{.axis = 0}}});
+    follow({.kind = CommandKind::Jog, .jogs = {{.axis = AxisIndex{0}}}});
     EXPECT_EQ(tracker->due_in(watch.running_time()), 4ms);
     (void)loop_for(999ms);
     EXPECT_TRUE(tracker->reply());
@@ -209,14 +209,14 @@ TEST_F(Follower, AReleasedJogIsRepeatedUntilItIsAnswered) {
 TEST_F(Follower, AStoppedClientReleasesAJogAtOnceAndBeginsNone) {
     watch.look(now, now += period, period);
     watch.look(now, now += 12s, period);
-    follow({.kind = CommandKind::Jog, .jogs = {{.axis = 0}}});
+    follow({.kind = CommandKind::Jog, .jogs = {{.axis = AxisIndex{0}}}});
     EXPECT_TRUE(sent.empty());
     follow({.kind = CommandKind::Jog});
     EXPECT_EQ(sent.size(), 1U);
 }
 
 TEST_F(Follower, AJogWithoutAnAnswerIsRenewedNoMore) {
-    follow({.kind = CommandKind::Jog, .jogs = {{.axis = 0}}});
+    follow({.kind = CommandKind::Jog, .jogs = {{.axis = AxisIndex{0}}}});
     (void)loop_to_end();
     const std::size_t before = sent.size();
     EXPECT_EQ(loop_for(10s), CommandStep::GaveUp);

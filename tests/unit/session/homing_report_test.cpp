@@ -33,21 +33,21 @@ void set_homing(proto::AxisStatus& row, const std::string& stage, const std::str
 TEST(HomingText, NamesTheSwitchThatAnAxisSearchesAndWhoWaitsForIt) {
     proto::StatusReport status = three_axes();
     set_homing(*status.mutable_axes(1), "search", "x_home", false);
-    EXPECT_EQ(homing_text(status, 0), "Z homed at 5.000   X searches x_home (open)   Y waits for X");
+    EXPECT_EQ(homing_text(status, {}), "Z homed at 5.000   X searches x_home (open)   Y waits for X");
     set_homing(*status.mutable_axes(2), "release", "", true);
-    EXPECT_EQ(homing_text(status, 0), "Z homed at 5.000   X searches x_home (open)   Y leaves its switch (closed)");
+    EXPECT_EQ(homing_text(status, {}), "Z homed at 5.000   X searches x_home (open)   Y leaves its switch (closed)");
 }
 
 TEST(HomingText, LeavesOutAxesThatWereNotAskedToHome) {
     proto::StatusReport status = three_axes();
     set_homing(*status.mutable_axes(1), "pull-off", "x_home", true);
-    EXPECT_EQ(homing_text(status, 0b010), "X moves off x_home");
+    EXPECT_EQ(homing_text(status, {AxisIndex{1}}), "X moves off x_home");
 }
 
 TEST(HomingText, ShowsTheStateWhileNoAxisIsInAPartOfHoming) {
     proto::StatusReport status = three_axes();
     status.mutable_axes(2)->set_present(false);
-    EXPECT_EQ(homing_text(status, 0), "Z homed at 5.000   X Standby   Y not received");
+    EXPECT_EQ(homing_text(status, {}), "Z homed at 5.000   X Standby   Y not received");
 }
 
 TEST(HomingText, NamesTheMotorsOfAnAxis) {
@@ -59,7 +59,7 @@ TEST(HomingText, NamesTheMotorsOfAnAxis) {
         motor.set_present(true);
     }
     set_homing(*status.mutable_motors(1), "search", "", false);
-    EXPECT_EQ(homing_text(status, 0b100), "Y1 waits for Y2   Y2 searches its switch (open)");
+    EXPECT_EQ(homing_text(status, {AxisIndex{2}}), "Y1 waits for Y2   Y2 searches its switch (open)");
 }
 
 }  // namespace

@@ -20,15 +20,15 @@ AxisState state_of(std::uint16_t axis) {
 
 TEST(ReceivedAxes, AnAxisIsPresentUntilItsSilenceIsTooLong) {
     ReceivedAxes received(two_axes());
-    EXPECT_FALSE(received.axis_present(0));
+    EXPECT_FALSE(received.axis_present(AxisIndex{0}));
     received.take(state_of(0), monotonic_now());
-    EXPECT_TRUE(received.motor_present(0));
-    EXPECT_TRUE(received.axis_present(0));
-    EXPECT_FALSE(received.axis_present(1));
+    EXPECT_TRUE(received.motor_present(MotorIndex{0}));
+    EXPECT_TRUE(received.axis_present(AxisIndex{0}));
+    EXPECT_FALSE(received.axis_present(AxisIndex{1}));
     EXPECT_EQ(received.names(), "X");
     received.take(state_of(1), monotonic_now() - longest_silence(two_axes()) - 1s);
-    EXPECT_TRUE(received.axis(1));
-    EXPECT_FALSE(received.axis_present(1));
+    EXPECT_TRUE(received.axis(AxisIndex{1}));
+    EXPECT_FALSE(received.axis_present(AxisIndex{1}));
     EXPECT_EQ(received.names(), "X");
 }
 

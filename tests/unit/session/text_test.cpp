@@ -117,7 +117,7 @@ TEST(StatusText, NamesTheMotorOfAFaultOnce) {
     motor.set_axis("Y");
     for (proto::FaultReport* fault :
          {status.mutable_fault(), status.mutable_axes(1)->mutable_fault(), motor.mutable_fault()}) {
-        *fault = motor_fault(FaultCode::LimitHit, kinematics, 2);
+        *fault = motor_fault(FaultCode::LimitHit, kinematics, MotorIndex{2});
     }
     const std::string text = status_text(status);
     EXPECT_THAT(text, HasSubstr("fault: motor Y2: limit-hit (103): a limit switch closed\n"));
@@ -138,7 +138,7 @@ TEST(StatusText, ShowsABoardWithoutPositionAndHoming) {
     proto::StatusReport status = running_with_board();
     MachineConfig machine = two_axes();
     machine.boards = {{.name = "IO"}};
-    *status.mutable_fault() = motor_fault(FaultCode::DeviceLost, Kinematics(machine), 2);
+    *status.mutable_fault() = motor_fault(FaultCode::DeviceLost, Kinematics(machine), MotorIndex{2});
     const std::string text = status_text(status);
     EXPECT_THAT(text, HasSubstr("IO                        board                  Standby"));
     EXPECT_THAT(text, HasSubstr("fault: board IO: device-lost"));

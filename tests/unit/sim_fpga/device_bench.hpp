@@ -23,7 +23,7 @@ inline constexpr Tick kMuchLater{100'000};
 inline MotorConfig bench_axis() {
     MotorConfig axis;
     axis.name = "X";
-    axis.axis = 0;
+    axis.axis = AxisIndex{0};
     axis.steps_per_mm = 80;
     axis.position_min_mm = 0;
     axis.position_max_mm = 100;

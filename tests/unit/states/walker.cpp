@@ -36,12 +36,12 @@ Reply Walker::go(CommandKind kind, double x_mm, double y_mm, double feed_mm_s, b
     Program program = program_of({{x_mm, y_mm}}, feed_mm_s, start);
     if (pauses) { program.blocks.insert(program.blocks.begin(), Block{.action = Pause{}}); }
     vm.give_program(++programs_, program);
-    return ask(kind, 0, programs_);
+    return ask(kind, {}, programs_);
 }
 
 Reply Walker::jog(Identity client, std::optional<double> distance_mm, double seconds) {
     Jogger jogger(vm, client);
-    jogger.press({{.axis = 0, .speed_mm_s = 20, .distance_mm = distance_mm}});
+    jogger.press({{.axis = AxisIndex{0}, .speed_mm_s = 20, .distance_mm = distance_mm}});
     const Tick end = vm.now() + Ticks{static_cast<std::int64_t>(seconds * 1e6)};
     while (vm.now() < end && jogger.reply() == nullptr) { pass(vm, {&jogger}, Ticks{500}); }
     if (jogger.reply() == nullptr) { return {.status = ReplyStatus::Refused, .text = "no reply"}; }
@@ -66,7 +66,7 @@ bool Walker::is_settled() const {
         case MachinePhase::Jogging:
         case MachinePhase::Running:
         case MachinePhase::Stopping: return false;
-        case MachinePhase::Waiting: return state.axes_present != all_axes(vm.machine().axes.size());
+        case MachinePhase::Waiting: return state.motors_present != MotorSet::first(vm.machine().axes.size());
         default: return true;
     }
 }
@@ -108,7 +108,7 @@ Reply Walker::put(const Question& question) {
     }
     if (question.kind == CommandKind::Jog) { return jog(kJogger, kJog_mm, kRestWithin_s); }
     if (question.program == Question::Program::None) { return ask(question.kind); }
-    if (question.program == Question::Program::Unknown) { return ask(question.kind, 0, kNotSent); }
+    if (question.program == Question::Program::Unknown) { return ask(question.kind, {}, kNotSent); }
     return go(question.kind, 12, 14, 40);
 }
 
@@ -161,8 +161,8 @@ void Walker::expect_effect(const Question& question, const Reply& reply, std::ui
     }
     if (ends_job) { EXPECT_TRUE(vm.state()->outcome || vm.state()->job == 0) << "no job is left: " << state_text(); }
     if (question.kind == CommandKind::EmergencyStop) { EXPECT_EQ(vm.state()->phase, MachinePhase::Fault); }
-    for (std::size_t i = 0; i < vm.axis_states().size(); ++i) {
-        if (has_axis(vm.state()->axes_present, i)) { EXPECT_TRUE(vm.axis_states()[i]->at_rest) << "axis " << i; }
+    for (const MotorIndex i : motor_indices(vm.axis_states().size())) {
+        if (vm.state()->motors_present.contains(i)) { EXPECT_TRUE(vm.axis_states()[i]->at_rest) << "axis " << i; }
     }
 }
 

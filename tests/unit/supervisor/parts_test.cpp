@@ -34,7 +34,7 @@ std::string text_of(const KnownParts& seen) {
 }
 
 TEST(AwaitedParts, AreThoseOfOtherHostsWithTheirState) {
-    const KnownParts seen{.present = {{0, "board-b", 7}}};
+    const KnownParts seen{.present = {{MotorIndex{0}, "board-b", 7}}};
     EXPECT_EQ(text_of(seen),
               "waits for coordinator on board-a: absent; on board-a: lockstep up\n"
               "waits for axis X on board-b: started, waits for the coordinator's clock\n"
@@ -42,11 +42,16 @@ TEST(AwaitedParts, AreThoseOfOtherHostsWithTheirState) {
 }
 
 TEST(AwaitedParts, AreNoneIfAllReceiveEachOther) {
-    EXPECT_EQ(text_of({.coordinator_present = true, .axes_present = 3, .axes_present_at_coordinator = 3}), "");
+    EXPECT_EQ(text_of({.coordinator_present = true,
+                       .motors_present = MotorSet::first(2),
+                       .motors_present_at_coordinator = MotorSet::first(2)}),
+              "");
 }
 
 TEST(AwaitedParts, IncludeThoseThatOnlyTheCoordinatorDoesNotReceive) {
-    EXPECT_EQ(text_of({.coordinator_present = true, .axes_present = 3, .axes_present_at_coordinator = 1}),
+    EXPECT_EQ(text_of({.coordinator_present = true,
+                       .motors_present = MotorSet::first(2),
+                       .motors_present_at_coordinator = MotorSet::first(1)}),
               "waits for axis Y on board-c: started, but its messages do not reach the coordinator\n");
 }
 
@@ -74,38 +79,42 @@ private:
 TEST(OwnParts, AreNotMistakenForThoseOfOtherHosts) {
     const ProcessRecord supervisor{"supervisor", getpid(), *start_of(getpid())};
     // The number and the start of a process on another host do not matter.
-    EXPECT_EQ(foreign_part(on_three_hosts(), {.axes = {0}}, supervisor,
-                           {{std::nullopt, "board-a", 1}, {1, "board-c", getppid()}}),
+    EXPECT_EQ(foreign_part(on_three_hosts(), {.axes = {MotorIndex{0}}}, supervisor,
+                           {{std::nullopt, "board-a", 1}, {MotorIndex{1}, "board-c", getppid()}}),
               std::nullopt);
 }
 
 TEST(OwnParts, ThatRanBeforeTheSupervisorAreForeign) {
     const Axis axis;
-    const std::vector<PresentProcess> present{{0, host_name(), axis.pid()}};
-    const auto foreign = foreign_part(on_three_hosts(), {.axes = {0}}, {"supervisor", 1, axis.start() + 1}, present);
+    const std::vector<PresentProcess> present{{MotorIndex{0}, host_name(), axis.pid()}};
+    const auto foreign =
+        foreign_part(on_three_hosts(), {.axes = {MotorIndex{0}}}, {"supervisor", 1, axis.start() + 1}, present);
     EXPECT_THAT(foreign.value_or(""), HasSubstr("axis X of machine 'mill' already runs"));
-    EXPECT_EQ(foreign_part(on_three_hosts(), {.axes = {0}}, {"supervisor", 1, axis.start()}, present), std::nullopt)
+    EXPECT_EQ(foreign_part(on_three_hosts(), {.axes = {MotorIndex{0}}}, {"supervisor", 1, axis.start()}, present),
+              std::nullopt)
         << "the supervisor started it";
 }
 
 TEST(OwnParts, OfAKilledProcessStillOnTheNetworkAreNotForeign) {
-    const std::vector<PresentProcess> present{{0, host_name(), getpid()}};  // another program has its number now
-    EXPECT_EQ(foreign_part(on_three_hosts(), {.axes = {0}}, {"supervisor", 1, ~std::uint64_t{0}}, present),
+    const std::vector<PresentProcess> present{
+        {MotorIndex{0}, host_name(), getpid()}};  // another program has its number now
+    EXPECT_EQ(foreign_part(on_three_hosts(), {.axes = {MotorIndex{0}}}, {"supervisor", 1, ~std::uint64_t{0}}, present),
               std::nullopt);
 }
 
 TEST(OwnParts, ThatAnotherHostRunsAreForeign) {
-    const auto foreign = foreign_part(on_three_hosts(), {.axes = {0}}, {"supervisor", 1, 0}, {{0, "elsewhere", 12}});
+    const auto foreign = foreign_part(on_three_hosts(), {.axes = {MotorIndex{0}}}, {"supervisor", 1, 0},
+                                      {{MotorIndex{0}, "elsewhere", 12}});
     EXPECT_THAT(foreign.value_or(""), HasSubstr("axis X of machine 'mill' runs on elsewhere (process 12), but"));
 }
 
 TEST(OwnParts, ArePresentWhenTheirProcessesAreOnTheNetwork) {
     const std::vector<ServiceLine> lines{{"fpga-X", {}}, {"axis-X", {}}, {kWeb, {}}};
     const std::vector<ProcessRecord> recorded{{"supervisor", 3, 1}, {"fpga-X", 4, 1}, {"axis-X", 5, 1}};
-    EXPECT_TRUE(are_present(lines, recorded, {{0, host_name(), 5}}));
-    EXPECT_FALSE(are_present(lines, recorded, {{0, "elsewhere", 5}}));
-    EXPECT_FALSE(are_present(lines, recorded, {{0, host_name(), 6}}));
-    EXPECT_FALSE(are_present(lines, {{"supervisor", 3, 1}}, {{0, host_name(), 5}})) << "not started yet";
+    EXPECT_TRUE(are_present(lines, recorded, {{MotorIndex{0}, host_name(), 5}}));
+    EXPECT_FALSE(are_present(lines, recorded, {{MotorIndex{0}, "elsewhere", 5}}));
+    EXPECT_FALSE(are_present(lines, recorded, {{MotorIndex{0}, host_name(), 6}}));
+    EXPECT_FALSE(are_present(lines, {{"supervisor", 3, 1}}, {{MotorIndex{0}, host_name(), 5}})) << "not started yet";
 }
 
 TEST(FoundProcesses, AreKnownByTheirMachineFile) {

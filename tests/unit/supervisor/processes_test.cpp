@@ -84,7 +84,7 @@ std::vector<std::string> names_of(const std::vector<ServiceLine>& lines) {
     return names;
 }
 
-Placement all() { return {.coordinator = true, .axes = {0, 1}}; }
+Placement all() { return {.coordinator = true, .axes = {MotorIndex{0}, MotorIndex{1}}}; }
 
 TEST(ServiceLines, AreACoordinatorAndAnAxisEach) {
     const auto lines = service_lines(two_axes(), all(), {}, "/opt/bin", StateDirectory("mill"));
@@ -94,7 +94,8 @@ TEST(ServiceLines, AreACoordinatorAndAnAxisEach) {
 }
 
 TEST(ServiceLines, AreOnlyOfThePartsPlacedOnTheHost) {
-    const auto on_a_board = service_lines(two_axes(), {.axes = {1}}, {}, "/opt/bin", StateDirectory("mill"));
+    const auto on_a_board =
+        service_lines(two_axes(), {.axes = {MotorIndex{1}}}, {}, "/opt/bin", StateDirectory("mill"));
     EXPECT_THAT(names_of(on_a_board), ElementsAre("axis-Y"));
     const auto on_the_main_host = service_lines(two_axes(), {.coordinator = true}, {}, "/opt/bin", StateDirectory("m"));
     EXPECT_THAT(names_of(on_the_main_host), ElementsAre("coordinator"));
@@ -117,7 +118,7 @@ TEST(ServiceLines, WithThePageHaveItBesideTheCoordinator) {
     MachineConfig machine = two_axes();
     machine.web = WebConfig{};
     EXPECT_EQ(names_of(service_lines(machine, all(), {}, "/opt/bin", state)), names_of(asked));
-    EXPECT_THAT(names_of(service_lines(machine, {.axes = {1}}, {.web = true}, "/opt/bin", state)),
+    EXPECT_THAT(names_of(service_lines(machine, {.axes = {MotorIndex{1}}}, {.web = true}, "/opt/bin", state)),
                 ElementsAre("axis-Y"));
 }
 
@@ -137,7 +138,7 @@ TEST(ServiceLines, HaveTheBoardOfPlacedMotorsOnceAndFirst) {
     EXPECT_THAT(names_of(lines), ElementsAre("board-pico1", "coordinator", "axis-X", "axis-Y"));
     EXPECT_EQ(lines[0].words[0], "/opt/bin/lockstep-board");
     EXPECT_EQ(service_name(lines[0].words, state.machine_file()), "board-pico1");
-    EXPECT_THAT(names_of(service_lines(machine, {.axes = {1}}, {}, "/opt/bin", state)),
+    EXPECT_THAT(names_of(service_lines(machine, {.axes = {MotorIndex{1}}}, {}, "/opt/bin", state)),
                 ElementsAre("board-pico1", "axis-Y"));
     EXPECT_THAT(names_of(service_lines(machine, all(), {.fpga = FpgaKind::Sim}, "/opt/bin", state)),
                 ElementsAre("coordinator", "axis-X", "axis-Y"));

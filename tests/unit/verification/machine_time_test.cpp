@@ -50,7 +50,7 @@ struct LoggedSteps final : LogListener {
 /// The true time of every step.
 struct TrueSteps final : VirtualObserver {
     explicit TrueSteps(const VirtualOptions& of) : options(of) {}
-    void on_step(std::size_t axis, StepEdge step) override {
+    void on_step(MotorIndex axis, StepEdge step) override {
         axes[axis].push_back(options.clocks[axis].device.truth(step.tick, options.start));
     }
     VirtualOptions options;

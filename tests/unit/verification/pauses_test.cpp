@@ -17,7 +17,7 @@ protected:
     /// Jogs X and Y one after the other, several times.
     static void jog(test::RecordedMachine& recorded, Jogger& jogger, int times) {
         for (int k = 0; k < times; ++k) {
-            jogger.press({{.axis = static_cast<std::uint32_t>(k % 2), .speed_mm_s = 20, .distance_mm = 3}});
+            jogger.press({{.axis = AxisIndex{static_cast<std::size_t>(k % 2)}, .speed_mm_s = 20, .distance_mm = 3}});
             pass(recorded.vm(), {&jogger}, Ticks{60'000});
             while (recorded.vm().state()->phase != MachinePhase::Paused) {
                 pass(recorded.vm(), {&jogger}, Ticks{20'000});

@@ -60,7 +60,7 @@ public:
     void command(CommandKind kind, std::uint64_t program = 0) {
         bool answered = false;
         for (int tries = 0; tries < 50 && !answered; ++tries) {
-            const std::uint64_t sequence = vm_.command(kind, 0, program);
+            const std::uint64_t sequence = vm_.command(kind, {}, program);
             answered = vm_.advance_until([&] { return vm_.reply_to(sequence) != nullptr; }, Ticks{200'000});
         }
         ASSERT_TRUE(answered);

@@ -33,7 +33,7 @@ TEST_F(Rig, AProgramMadeForAnotherStartIsRefused) {
 
 TEST_F(Rig, AProgramThatNeverArrivedIsRefused) {
     home();
-    EXPECT_EQ(why(ask(CommandKind::Run, 0, 999)), FaultCode::UnknownProgram);
+    EXPECT_EQ(why(ask(CommandKind::Run, {}, 999)), FaultCode::UnknownProgram);
 }
 
 TEST_F(Rig, RefusesHomeRunAndResetWhileAJobRuns) {
@@ -379,7 +379,7 @@ TEST(Determinism, TheSameOptionsGiveTheSameSteps) {
         vm.command(CommandKind::Home);
         (void)vm.advance_until([] { return false; }, Ticks{5'000'000});
         vm.give_program(1, program_of({{85, 45}}, 40));
-        vm.command(CommandKind::Run, 0, 1);
+        vm.command(CommandKind::Run, {}, 1);
         (void)vm.advance_until([] { return false; }, Ticks{5'000'000});
         EXPECT_GT(log.steps.size(), 12'000u);
         if (i == 0) { first = log.steps; }
@@ -395,13 +395,14 @@ TEST(Coordinator, DoesNotTakeItsOwnStallForTheSilenceOfOthers) {
     (void)coordinator.step({.now = {10'000}, .axes = {&axis, 1}});
     const auto after_a_stall = coordinator.step({.now = {5'000'000}});
     ASSERT_TRUE(after_a_stall.state.has_value());
-    EXPECT_EQ(after_a_stall.state->axes_present, 1u);
+    EXPECT_EQ(after_a_stall.state->motors_present, MotorSet::first(1));
     Tick now{5'000'000};
     for (int slot = 0; slot < rules::silence_slots(machine.timing); ++slot) {
         now = now + machine.slot_ticks();
         (void)coordinator.step({.now = now});
     }
-    EXPECT_EQ(coordinator.step({.now = now + machine.slot_ticks()}).state->axes_present, 0u) << "but its silence since";
+    EXPECT_TRUE(coordinator.step({.now = now + machine.slot_ticks()}).state->motors_present.empty())
+        << "but its silence since";
 }
 
 TEST(Coordinator, AnswersCommandsReceivedDuringItsStall) {

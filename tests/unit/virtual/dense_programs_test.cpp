@@ -11,7 +11,7 @@ namespace {
 /// The times of the first and the last step, and whether a motion was interrupted.
 class MotionTimes : public VirtualObserver {
 public:
-    void on_step(std::size_t, StepEdge step) override {
+    void on_step(MotorIndex, StepEdge step) override {
         first = first == Tick{} ? step.tick : first;
         last = step.tick;
     }

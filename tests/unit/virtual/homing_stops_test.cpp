@@ -13,8 +13,8 @@ namespace {
 /// Keeps for each axis the stage of its homing, all its steps, and the beginning of its newest run.
 class HomingLog : public VirtualObserver {
 public:
-    void on_step(std::size_t axis, StepEdge step) override { axes[axis].steps.push_back(step.tick); }
-    void on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
+    void on_step(MotorIndex axis, StepEdge step) override { axes[axis].steps.push_back(step.tick); }
+    void on_axis(MotorIndex axis, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
         for (const AxisNotice& notice : out.notices) {
             if (notice.kind == AxisNotice::Kind::HomingStage) {
                 axes[axis].stage = static_cast<HomingStage>(notice.number);

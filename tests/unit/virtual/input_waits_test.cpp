@@ -189,7 +189,7 @@ TEST_F(InputWaitsWithStandby, EndWithATakeoverAndTheInputMovesNothingMore) {
 TEST_F(InputWaits, AllowNoJogBecauseTheJobMayGoOnAtAnyTime) {
     wait_for(InputMode::IsClosed, 5);
     Jogger jogger(vm);
-    jogger.press({{.axis = 0, .speed_mm_s = 20, .distance_mm = 3}});
+    jogger.press({{.axis = AxisIndex{0}, .speed_mm_s = 20, .distance_mm = 3}});
     pass(vm, {&jogger}, Ticks{100'000});
     ASSERT_NE(jogger.reply(), nullptr);
     EXPECT_EQ(jogger.reply()->status, ReplyStatus::Refused);

@@ -27,7 +27,7 @@ protected:
     explicit Inputs(MachineConfig machine = machine_with_inputs()) : Rig({.machine = std::move(machine)}) {
         vm.observe(*this);
     }
-    void on_step(std::size_t axis, StepEdge step) override { last_step[axis] = step.tick; }
+    void on_step(MotorIndex axis, StepEdge step) override { last_step[axis] = step.tick; }
 
     void set(std::size_t input, bool closed) {
         const InputConfig& one = vm.machine().inputs[input];
@@ -163,7 +163,7 @@ TEST_F(Inputs, NoMotionBeginsWhileADoorIsOpen) {
     EXPECT_EQ(why(ask(CommandKind::Home)), FaultCode::DoorOpen);
     EXPECT_EQ(why(run(program_of({{10, 10}}, 20))), FaultCode::DoorOpen);
     vm.give_program(100, program_of({{10, 10}}, 0));
-    EXPECT_EQ(why(ask(CommandKind::MoveOwn, 0, 100)), FaultCode::DoorOpen);
+    EXPECT_EQ(why(ask(CommandKind::MoveOwn, {}, 100)), FaultCode::DoorOpen);
     set(kDoor, false);
     wait(0.1);
     EXPECT_EQ(run(program_of({{10, 10}}, 20)).status, ReplyStatus::Accepted);
@@ -181,7 +181,7 @@ TEST_F(Inputs, ADoorEndsHomingAndMovesOfAxesOnTheirOwn) {
     wait(0.1);
     home();
     vm.give_program(100, program_of({{95, 5}}, 0));
-    ASSERT_EQ(ask(CommandKind::MoveOwn, 0, 100).status, ReplyStatus::Accepted);
+    ASSERT_EQ(ask(CommandKind::MoveOwn, {}, 100).status, ReplyStatus::Accepted);
     wait(0.5);
     set(kDoor, true);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 3)) << describe();
@@ -192,13 +192,13 @@ TEST_F(Inputs, ADoorEndsHomingAndMovesOfAxesOnTheirOwn) {
 TEST_F(Inputs, ADoorEndsAJogAndAKeyThatIsHeldMovesNothingWhileItIsOpen) {
     home();
     Jogger jogger(vm);
-    jogger.press({{.axis = kX, .speed_mm_s = 10}});
+    jogger.press({{.axis = AxisIndex{kX}, .speed_mm_s = 10}});
     pass(vm, {&jogger}, Ticks{300'000});
     ASSERT_FALSE(vm.axis_states()[kX]->at_rest);
     set(kDoor, true);
     pass(vm, {&jogger}, Ticks{500'000});
     const auto at = counts();
-    jogger.press({{.axis = kY, .speed_mm_s = 10}});
+    jogger.press({{.axis = AxisIndex{kY}, .speed_mm_s = 10}});
     pass(vm, {&jogger}, Ticks{300'000});
     EXPECT_EQ(counts(), at);
     ASSERT_NE(jogger.reply(), nullptr);

@@ -22,8 +22,8 @@ MachineConfig machine_to_jog() {
 /// The steps of each run of each axis.
 class RunLog : public VirtualObserver {
 public:
-    void on_step(std::size_t axis, StepEdge step) override { steps.at(axis).push_back(step); }
-    void on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
+    void on_step(MotorIndex axis, StepEdge step) override { steps.at(axis).push_back(step); }
+    void on_axis(MotorIndex axis, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
         for (const ExecutedTrack& track : out.tracks) {
             if (track.frame == 1 && !track.tail) { runs.at(axis).push_back(track.start); }
         }
@@ -97,7 +97,7 @@ protected:
 
 TEST_F(AJog, MovesWhileItIsRenewedAndEndsIdle) {
     home_all();
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 20}}), FaultCode::None);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 20}}), FaultCode::None);
     jog(1);
     EXPECT_EQ(phase(), MachinePhase::Jogging);
     EXPECT_EQ(vm.axis_states()[kX]->phase, AxisPhase::Cruise);
@@ -112,33 +112,35 @@ TEST_F(AJog, MovesWhileItIsRenewedAndEndsIdle) {
 
 TEST_F(AJog, EndsAtTheEndOfTheTravelAtRest) {
     home_all();
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 100}, {.axis = kY, .speed_mm_s = -100}}), FaultCode::None);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 100}, {.axis = AxisIndex{kY}, .speed_mm_s = -100}}),
+              FaultCode::None);
     jog(2.5);
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{10'000, 0}));
     EXPECT_EQ(phase(), MachinePhase::Idle) << "though the key is still held";
     expect_at_rest();
     expect_within_limits();
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 100}}), FaultCode::OutsideTravel);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 100}}), FaultCode::OutsideTravel);
 }
 
 TEST_F(AJog, GoesExactlyTheDistanceAskedFor) {
     home_all();
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 30, .distance_mm = 12.34}}), FaultCode::None);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 30, .distance_mm = 12.34}}), FaultCode::None);
     jog(1.5);
     EXPECT_EQ(counts()[kX], 500 + 1234);
     EXPECT_EQ(phase(), MachinePhase::Idle);
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = -30, .distance_mm = 0.01}}), FaultCode::None);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = -30, .distance_mm = 0.01}}), FaultCode::None);
     expect_at_rest();
     EXPECT_EQ(counts()[kX], 500 + 1233);
 }
 
 TEST_F(AJog, OfTwoKeysIsDiagonalAndOneIsReleasedAlone) {
     home_all();
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 20}}), FaultCode::None);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 20}}), FaultCode::None);
     jog(0.3);
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 20}, {.axis = kY, .speed_mm_s = 20}}), FaultCode::None);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 20}, {.axis = AxisIndex{kY}, .speed_mm_s = 20}}),
+              FaultCode::None);
     jog(0.3);
-    EXPECT_EQ(press(client, {{.axis = kY, .speed_mm_s = 20}}), FaultCode::None);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 20}}), FaultCode::None);
     jog(0.2);
     EXPECT_TRUE(vm.axis_states()[kX]->at_rest);
     EXPECT_FALSE(vm.axis_states()[kY]->at_rest);
@@ -150,9 +152,9 @@ TEST_F(AJog, OfTwoKeysIsDiagonalAndOneIsReleasedAlone) {
 
 TEST_F(AJog, TurnsRoundFromRest) {
     home_all();
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 80}}), FaultCode::None);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 80}}), FaultCode::None);
     jog(0.4);
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = -80}}), FaultCode::None);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = -80}}), FaultCode::None);
     const auto there = counts()[kX];
     jog(0.5);
     EXPECT_LT(counts()[kX], there - 500);
@@ -163,42 +165,42 @@ TEST_F(AJog, TurnsRoundFromRest) {
 
 TEST_F(AJog, OfAnotherClientOnTheSameAxisIsRefused) {
     home_all();
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 20}}), FaultCode::None);
-    EXPECT_EQ(press(other, {{.axis = kX, .speed_mm_s = 20}}), FaultCode::Busy);
-    EXPECT_EQ(press(other, {{.axis = kY, .speed_mm_s = 20}}), FaultCode::None);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 20}}), FaultCode::None);
+    EXPECT_EQ(press(other, {{.axis = AxisIndex{kX}, .speed_mm_s = 20}}), FaultCode::Busy);
+    EXPECT_EQ(press(other, {{.axis = AxisIndex{kY}, .speed_mm_s = 20}}), FaultCode::None);
     client.die();
     jog(0.7);
     EXPECT_TRUE(vm.axis_states()[kX]->at_rest);
     EXPECT_FALSE(vm.axis_states()[kY]->at_rest);
-    EXPECT_EQ(press(other, {{.axis = kX, .speed_mm_s = 20}}), FaultCode::None) << "the first one is gone";
+    EXPECT_EQ(press(other, {{.axis = AxisIndex{kX}, .speed_mm_s = 20}}), FaultCode::None) << "the first one is gone";
     other.release();
     expect_at_rest();
 }
 
 TEST_F(AJog, IsRefusedWhereTheMachineCannotMove) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 2}}), FaultCode::NotHomed);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 2}}), FaultCode::NotHomed);
     home_all();
-    EXPECT_EQ(press(client, {{.axis = 7, .speed_mm_s = 2}}), FaultCode::BadProgram);
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 101}}), FaultCode::BadProgram);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{7}, .speed_mm_s = 2}}), FaultCode::BadProgram);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 101}}), FaultCode::BadProgram);
     EXPECT_NE(client.reply()->text.find("max_velocity_mm_s 100"), std::string::npos) << client.reply()->text;
-    EXPECT_EQ(press(client, {{.axis = kX}}), FaultCode::BadProgram);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}}}), FaultCode::BadProgram);
     ASSERT_EQ(run(program_of({{60, 60}}, 20)).status, ReplyStatus::Accepted);
     wait(0.3);
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 2}}), FaultCode::Busy);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 2}}), FaultCode::Busy);
     EXPECT_EQ(press(client, {}), FaultCode::None) << "a release is never refused";
     (void)ask(CommandKind::Hold);
     ASSERT_TRUE(reaches(MachinePhase::Holding, 3));
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 2}}), FaultCode::Held);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 2}}), FaultCode::Held);
     (void)ask(CommandKind::EmergencyStop);
     wait(0.2);
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 2}}), FaultCode::InFault);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 2}}), FaultCode::InFault);
 }
 
 TEST_F(AJog, OfAnUnhomedAxisIsSlowWhereItIsAllowed) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
     const std::int64_t before = counts()[kY];
-    EXPECT_EQ(press(client, {{.axis = kY, .speed_mm_s = 90}}), FaultCode::None);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 90}}), FaultCode::None);
     jog(1);
     EXPECT_NEAR(static_cast<double>(counts()[kY] - before), 400, 20);
     client.release();
@@ -210,14 +212,14 @@ TEST_F(AJog, OfAnUnhomedAxisIsSlowWhereItIsAllowed) {
 
 TEST_F(AJog, OfAnUnhomedAxisEndsAtTheLimitSwitch) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
-    EXPECT_EQ(press(client, {{.axis = kY, .speed_mm_s = -4}}), FaultCode::None);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kY}, .speed_mm_s = -4}}), FaultCode::None);
     jog(4);
     EXPECT_EQ(phase(), MachinePhase::Fault);
     EXPECT_EQ(fault(), FaultCode::LimitHit);
     client.release();
     ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
     jog(0.2);
-    EXPECT_EQ(press(client, {{.axis = kY, .speed_mm_s = 4}}), FaultCode::None) << "away from the switch";
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 4}}), FaultCode::None) << "away from the switch";
     jog(1);
     EXPECT_EQ(phase(), MachinePhase::Jogging);
 }
@@ -225,7 +227,7 @@ TEST_F(AJog, OfAnUnhomedAxisEndsAtTheLimitSwitch) {
 TEST_F(AJog, IsEndedByAStopAndAHoldAndOtherCommandsWait) {
     home_all();
     for (const CommandKind kind : {CommandKind::Stop, CommandKind::Hold}) {
-        EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 20}}), FaultCode::None);
+        EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 20}}), FaultCode::None);
         jog(0.2);
         EXPECT_EQ(ask(CommandKind::Home).fault, FaultCode::Busy);
         (void)vm.command(kind);
@@ -239,7 +241,7 @@ TEST_F(AJog, IsEndedByAStopAndAHoldAndOtherCommandsWait) {
 
 TEST_F(AJog, IsCeasedByAnEmergencyStop) {
     home_all();
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 50}}), FaultCode::None);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 50}}), FaultCode::None);
     jog(0.3);
     (void)vm.command(CommandKind::EmergencyStop);
     jog(0.1);
@@ -251,7 +253,7 @@ TEST_F(AJog, IsCeasedByAnEmergencyStop) {
 
 TEST_F(AJog, RestsWhenTheCoordinatorDiesAndTheMachineIsIdleWithTheNext) {
     home_all();
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 50}}), FaultCode::None);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 50}}), FaultCode::None);
     jog(0.3);
     vm.schedule({.kind = Kind::Crash, .process = kCoordinator, .at = vm.now(), .lasts = {300'000}});
     jog(0.2);
@@ -266,7 +268,7 @@ TEST_F(AJog, RestsWhenTheCoordinatorDiesAndTheMachineIsIdleWithTheNext) {
 TEST_F(AJog, ContinuesAfterAStallOfAnyProcess) {
     home_all();
     for (const std::size_t process : {kX, kCoordinator}) {
-        EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 20, .distance_mm = 20}}), FaultCode::None);
+        EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 20, .distance_mm = 20}}), FaultCode::None);
         jog(0.3);
         vm.schedule({.process = process, .at = vm.now(), .lasts = {100'000}});
         expect_at_rest();
@@ -278,7 +280,7 @@ TEST_F(AJog, ContinuesAfterAStallOfAnyProcess) {
 
 TEST_F(AJog, IsNotBegunAgainByOldRenewalsAfterAStallOfTheCoordinator) {
     home_all();
-    EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 50}}), FaultCode::None);
+    EXPECT_EQ(press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 50}}), FaultCode::None);
     jog(0.3);
     vm.schedule({.process = kCoordinator, .at = vm.now(), .lasts = {100'000}});
     jog(0.05);
@@ -297,7 +299,7 @@ TEST_P(RandomJogs, LeaveTheAxesAtRestWithinTravelAndEveryStepWithinLimits) {
     const auto pick = [&](int most) { return static_cast<int>(random() % static_cast<unsigned>(most)); };
     const auto jog_axis = [&](std::uint32_t axis) {
         const double speed = (1 + pick(100)) * (pick(2) == 0 ? 1 : -1);
-        JogAxis jog{.axis = axis, .speed_mm_s = speed};
+        JogAxis jog{.axis = AxisIndex{axis}, .speed_mm_s = speed};
         if (pick(3) == 0) { jog.distance_mm = 0.01 * (1 + pick(3000)); }
         return jog;
     };

@@ -42,7 +42,7 @@ public:
 class LostCaptures : public Rig, public VirtualObserver {
 protected:
     LostCaptures() : Rig({.machine = fast_machine()}) { vm.observe(*this); }
-    void on_axis(std::size_t axis, Tick, const AxisOutputs&, AxisNode& node) override {
+    void on_axis(MotorIndex axis, Tick, const AxisOutputs&, AxisNode& node) override {
         if (axis == 0) { lost = static_cast<std::int64_t>(node.device().lost_captures()); }
     }
 
@@ -55,7 +55,7 @@ TEST_F(LostCaptures, AreAFaultOfTheAxisAndAJumpInTheRecord) {
     home();
     const std::size_t before = record.batches.size();
     vm.give_program(100, program_of({{95, 5}}, 0));
-    ASSERT_EQ(ask(CommandKind::MoveOwn, 0, 100).status, ReplyStatus::Accepted);
+    ASSERT_EQ(ask(CommandKind::MoveOwn, {}, 100).status, ReplyStatus::Accepted);
     wait(0.5);
     vm.schedule({.kind = VirtualFault::Kind::Freeze, .process = 0, .at = vm.now(), .lasts = Ticks{2'000'000}});
     wait(3);

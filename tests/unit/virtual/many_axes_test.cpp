@@ -25,21 +25,22 @@ protected:
 };
 
 TEST(AxisSets, HoldEveryAxisOfAMachineAndNoOther) {
-    EXPECT_EQ(all_axes(0), AxisSet{0});
-    EXPECT_EQ(all_axes(3), AxisSet{0b111});
-    EXPECT_EQ(all_axes(kMaxAxes), ~AxisSet{0});
-    EXPECT_TRUE(has_axis(axis_bit(kMaxAxes - 1), kMaxAxes - 1));
-    EXPECT_FALSE(has_axis(axis_bit(kMaxAxes - 1), 0));
+    EXPECT_TRUE(AxisSet::first(0).empty());
+    EXPECT_EQ(AxisSet::first(3).bits(), 0b111U);
+    EXPECT_EQ(AxisSet::first(kMaxAxes).bits(), ~std::uint64_t{0});
+    const AxisIndex last{kMaxAxes - 1};
+    EXPECT_TRUE(AxisSet{last}.contains(last));
+    EXPECT_FALSE(AxisSet{last}.contains(AxisIndex{0}));
 }
 
 TEST_F(FullMachine, MovesAllAxesTogetherAndStopsForTheLastOne) {
     home();
-    EXPECT_EQ(vm.state()->axes_present, all_axes(kMaxAxes));
+    EXPECT_EQ(vm.state()->motors_present, MotorSet::first(kMaxAxes));
     ASSERT_EQ(run(all_to(15)).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
     EXPECT_EQ(counts(), std::vector<std::int64_t>(kMaxAxes, 1500));
 
-    ASSERT_EQ(ask(CommandKind::Home, axis_bit(kMaxAxes - 1)).status, ReplyStatus::Accepted);
+    ASSERT_EQ(ask(CommandKind::Home, {AxisIndex{kMaxAxes - 1}}).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
     EXPECT_EQ(counts().back(), 500) << "only it is at its park position";
     EXPECT_EQ(counts().front(), 1500);

@@ -27,10 +27,10 @@ MachineConfig machine_by(StepMethod method) {
 /// The own runs of an axis, and its steps.
 class OwnMoveLog : public VirtualObserver {
 public:
-    void on_step(std::size_t axis, StepEdge step) override {
+    void on_step(MotorIndex axis, StepEdge step) override {
         if (axis == 0) { steps.push_back(step); }
     }
-    void on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
+    void on_axis(MotorIndex axis, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
         for (const ExecutedTrack& track : out.tracks) {
             if (axis == 0) { tracks.push_back(track); }
         }
@@ -54,7 +54,7 @@ protected:
         for (const std::int64_t count : counts()) { start.push_back(static_cast<double>(count) / 100); }
         log.clear();
         vm.give_program(++programs_, program_of({std::move(target_mm)}, 0, start));
-        return ask(CommandKind::MoveOwn, 0, programs_, ticks);
+        return ask(CommandKind::MoveOwn, {}, programs_, ticks);
     }
     void expect_done(std::vector<double> target_mm, std::optional<Ticks> ticks = {}) {
         const Reply reply = own(std::move(target_mm), ticks);

@@ -37,7 +37,7 @@ protected:
     }
     /// Jogs X by `mm` to its end.
     Reply jog(double mm) {
-        jogger_.press({{.axis = 0, .speed_mm_s = mm < 0 ? -20.0 : 20.0, .distance_mm = std::abs(mm)}});
+        jogger_.press({{.axis = AxisIndex{0}, .speed_mm_s = mm < 0 ? -20.0 : 20.0, .distance_mm = std::abs(mm)}});
         pass(vm, {&jogger_}, Ticks{100'000});
         for (int k = 0; k < 200 && vm.state()->phase != MachinePhase::Paused; ++k) {
             pass(vm, {&jogger_}, Ticks{20'000});
@@ -167,7 +167,7 @@ TEST_F(PauseTest, AStopOnTheWayBackEndsTheJob) {
 
 TEST_F(PauseTest, AStopWhileAxesAreJoggedEndsTheJogOnly) {
     pause({});
-    jogger_.press({{.axis = 0, .speed_mm_s = 20, .distance_mm = {}}});
+    jogger_.press({{.axis = AxisIndex{0}, .speed_mm_s = 20, .distance_mm = {}}});
     pass(vm, {&jogger_}, Ticks{300'000});
     ASSERT_EQ(vm.state()->phase, MachinePhase::Jogging);
     EXPECT_TRUE(vm.state()->pause) << "the job still waits";
@@ -181,7 +181,7 @@ TEST_F(PauseTest, AStopWhileAxesAreJoggedEndsTheJogOnly) {
 TEST_F(PauseTest, AnEmergencyStopInTheJogOfAPauseEndsTheJob) {
     pause({});
     const std::uint64_t job = vm.state()->job;
-    jogger_.press({{.axis = 0, .speed_mm_s = 20, .distance_mm = {}}});
+    jogger_.press({{.axis = AxisIndex{0}, .speed_mm_s = 20, .distance_mm = {}}});
     pass(vm, {&jogger_}, Ticks{300'000});
     (void)ask(CommandKind::EmergencyStop);
     ASSERT_TRUE(reaches(MachinePhase::Fault, 2)) << describe();

@@ -22,7 +22,7 @@ MachineConfig machine_with_probe() {
 /// How long after a touch its axis knows it.
 class TouchDelay : public VirtualObserver {
 public:
-    void on_axis(std::size_t /*axis*/, Tick now, const AxisOutputs& out, AxisNode& /*node*/) override {
+    void on_axis(MotorIndex /*axis*/, Tick now, const AxisOutputs& out, AxisNode& /*node*/) override {
         for (const AxisNotice& notice : out.notices) {
             if (notice.kind != AxisNotice::Kind::Touched) { continue; }
             ticks = now - Tick{static_cast<std::int64_t>(notice.number)};

@@ -48,7 +48,7 @@ public:
         int direction = 0;
         bool operator==(const Step&) const = default;
     };
-    void on_step(std::size_t axis, StepEdge step) override { steps.push_back({axis, step.tick.value, step.direction}); }
+    void on_step(MotorIndex axis, StepEdge step) override { steps.push_back({axis, step.tick.value, step.direction}); }
     std::vector<Step> steps;
 };
 
@@ -64,7 +64,7 @@ protected:
     void wait(double seconds) {
         (void)vm.advance_until([] { return false; }, Ticks{static_cast<std::int64_t>(seconds * 1e6)});
     }
-    Reply ask(CommandKind kind, AxisSet axes = 0, std::uint64_t program = 0, std::optional<Ticks> ticks = {}) {
+    Reply ask(CommandKind kind, AxisSet axes = {}, std::uint64_t program = 0, std::optional<Ticks> ticks = {}) {
         const auto sequence = vm.command(kind, axes, program, ticks);
         const auto answered = [&] { return vm.reply_to(sequence) != nullptr; };
         for (int tries = 0; tries < 4 && !vm.advance_until(answered, Ticks{250'000}); ++tries) { vm.repeat_command(); }
@@ -74,7 +74,7 @@ protected:
     }
     Reply run(const Program& program) {
         vm.give_program(++programs_, program);
-        return ask(CommandKind::Run, 0, programs_);
+        return ask(CommandKind::Run, {}, programs_);
     }
     void home() {
         ASSERT_TRUE(reaches(MachinePhase::Idle, 2)) << describe();

@@ -14,7 +14,7 @@ using Kind = VirtualFault::Kind;
 /// The time of the last step of each axis, and the number of its steps.
 class LastSteps : public VirtualObserver {
 public:
-    void on_step(std::size_t axis, StepEdge step) override {
+    void on_step(MotorIndex axis, StepEdge step) override {
         last.at(axis) = step.tick;
         ++steps.at(axis);
     }
@@ -100,7 +100,7 @@ TEST_P(SilentCoordinator, KilledInHomingHaltsTheAxes) {
 TEST_P(SilentCoordinator, KilledInAMoveOfAxesByThemselvesHaltsThemWithTheirPositionsKnown) {
     home();
     vm.give_program(7, program_of({{90, 80}}, 0));
-    ASSERT_EQ(ask(CommandKind::MoveOwn, 0, 7).status, ReplyStatus::Accepted);
+    ASSERT_EQ(ask(CommandKind::MoveOwn, {}, 7).status, ReplyStatus::Accepted);
     wait(0.3);
     silence(Kind::Crash, 2);
     expect_halted(true);

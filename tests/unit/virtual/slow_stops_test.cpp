@@ -20,7 +20,7 @@ MachineConfig machine_to_slow_down() {
 /// Counts the pulses of X.
 class PulseCount : public VirtualObserver {
 public:
-    void on_step(std::size_t axis, StepEdge step) override {
+    void on_step(MotorIndex axis, StepEdge step) override {
         if (axis == kX) { count += step.direction; }
     }
     std::int64_t count = 0;
@@ -48,7 +48,7 @@ protected:
     }
     Reply own(double to_mm, std::optional<Ticks> ticks = {}) {
         vm.give_program(++programs_, program_of({{to_mm, at_mm(kY)}}, 0, {at_mm(kX), at_mm(kY)}));
-        return ask(CommandKind::MoveOwn, 0, programs_, ticks);
+        return ask(CommandKind::MoveOwn, {}, programs_, ticks);
     }
     double at_mm(std::size_t axis) const { return static_cast<double>(counts()[axis]) / 100; }
     /// The axis goes on from the whole step that it stands on, without a pulse more or less.
@@ -94,7 +94,7 @@ TEST_P(AtEverySpeed, AJogEndsByAReleaseADeadClientAndAStop) {
                                                     }};
     for (std::size_t i = 0; i < ends.size(); ++i) {
         const double way = i % 2 == 0 ? 1 : -1;
-        client.press({{.axis = kX, .speed_mm_s = way * speed()}});
+        client.press({{.axis = AxisIndex{kX}, .speed_mm_s = way * speed()}});
         pass(vm, {&client}, Ticks{400'000});
         ASSERT_EQ(vm.state()->phase, MachinePhase::Jogging) << describe();
         ends[i]();
@@ -109,7 +109,7 @@ TEST_P(AtEverySpeed, AJogEndsByAReleaseADeadClientAndAStop) {
 TEST_P(AtEverySpeed, AJogEndsWithoutTheCoordinator) {
     home();
     Jogger client(vm);
-    client.press({{.axis = kX, .speed_mm_s = speed()}});
+    client.press({{.axis = AxisIndex{kX}, .speed_mm_s = speed()}});
     pass(vm, {&client}, Ticks{400'000});
     vm.schedule({.kind = VirtualFault::Kind::Crash, .process = kCoordinator, .at = vm.now(), .lasts = {300'000}});
     const auto rests = [&] { return !vm.device(kX).in_motion(); };
@@ -158,7 +158,7 @@ TEST_F(SlowMotion, SpeedsBelowTheLeastAreRefused) {
     home();
     for (const double speed_mm_s : {1e-320, 1e-9, kLeastSpeed_mm_s * 0.999}) {
         Jogger client(vm);
-        client.press({{.axis = kX, .speed_mm_s = speed_mm_s}});
+        client.press({{.axis = AxisIndex{kX}, .speed_mm_s = speed_mm_s}});
         pass(vm, {&client}, Ticks{50'000});
         ASSERT_NE(client.reply(), nullptr);
         EXPECT_EQ(client.reply()->fault, FaultCode::BadProgram);
@@ -171,7 +171,7 @@ TEST_F(SlowMotion, TwoStopsInARowKeepTheDistanceOfPulses) {
     home();
     Jogger client(vm);
     for (int i = 0; i < 20; ++i) {
-        client.press({{.axis = kX, .speed_mm_s = i % 2 == 0 ? 0.7 : -0.7}});
+        client.press({{.axis = AxisIndex{kX}, .speed_mm_s = i % 2 == 0 ? 0.7 : -0.7}});
         pass(vm, {&client}, Ticks{61'000 + i * 1'700});
         client.release();
         pass(vm, {&client}, Ticks{40'000});

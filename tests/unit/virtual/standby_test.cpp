@@ -20,7 +20,7 @@ public:
         for (const JobEvent& job : out.jobs) { epochs += job.kind == JobEvent::Kind::EpochBegun ? 1 : 0; }
         for (const Frame& frame : out.frames) { senders[frame.epoch].insert(frame.term); }
     }
-    void on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
+    void on_axis(MotorIndex axis, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
         for (const ExecutedTrack& track : out.tracks) {
             if (track.epoch == 0 || track.tail) { continue; }
             EXPECT_TRUE(ran[axis].insert({track.epoch, track.frame}).second) << "a frame was run twice";
@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(AfterSilence, Woken, testing::Range(12, 22));
 TEST_F(Standby, AnOwnerThatStalledInItsOwnMovesOrdersNothingMore) {
     settle();
     vm.give_program(7, program_of({{90, 90}}, 40));
-    ASSERT_EQ(ask(CommandKind::MoveOwn, 0, 7).status, ReplyStatus::Accepted);
+    ASSERT_EQ(ask(CommandKind::MoveOwn, {}, 7).status, ReplyStatus::Accepted);
     wait(0.05);
     inject(Kind::Freeze, owner, 6);
     ASSERT_TRUE(
@@ -232,7 +232,7 @@ TEST_F(Standby, ARestartedOneStandsByAndTakesOverLater) {
 TEST_F(Standby, DoesNotExecuteACommandThatTheOwnerMayHaveBegun) {
     settle();
     vm.give_program(7, program_of({{90, 90}}, 40));
-    const auto asked = vm.command(CommandKind::Run, 0, 7);
+    const auto asked = vm.command(CommandKind::Run, {}, 7);
     wait(0.01);
     inject(Kind::Crash, owner, 100);
     ASSERT_TRUE(taken_over());

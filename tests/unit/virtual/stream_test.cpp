@@ -41,7 +41,7 @@ protected:
     void begin(int count) {
         home();
         ASSERT_EQ(send({.blocks = moves(count)}).status, ReplyStatus::Accepted);
-        ASSERT_EQ(ask(CommandKind::Run, 0, kProgram).status, ReplyStatus::Accepted);
+        ASSERT_EQ(ask(CommandKind::Run, {}, kProgram).status, ReplyStatus::Accepted);
     }
     /// The end of the moves that were sent so far, in steps.
     std::vector<std::int64_t> end() const { return {std::lround(x_mm * 100), std::lround(y_mm * 100)}; }

@@ -29,10 +29,10 @@ public:
     void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& out) override {
         for (const Frame& frame : out.frames) { sent_.emplace(std::pair{frame.epoch, frame.number}, frame); }
     }
-    void on_step(std::size_t axis, StepEdge step) override {
+    void on_step(MotorIndex axis, StepEdge step) override {
         if (recording_) { made_[axis].push_back(truth_of(axis, step.tick)); }
     }
-    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) override {
+    void on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) override {
         for (const ExecutedTrack& track : out.tracks) { run_[axis].push_back({track.epoch, track.frame, track.tail}); }
         if (out.state) { bounds_[axis][static_cast<double>(now.value)] = out.state->clock_error.value; }
     }

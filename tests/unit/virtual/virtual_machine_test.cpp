@@ -56,7 +56,7 @@ TEST_F(TwoAxes, RunAFileToItsEnd) {
     auto program = load_gcode_file("deploy/examples/plate.gcode", vm.machine(), positions());
     ASSERT_TRUE(program.has_value());
     vm.give_program(1, *program);
-    const auto sequence = vm.command(CommandKind::Run, 0, 1);
+    const auto sequence = vm.command(CommandKind::Run, {}, 1);
     ASSERT_TRUE(vm.advance_until([&] { return vm.reply_to(sequence) != nullptr; }, Ticks{1'000'000}));
     ASSERT_EQ(vm.reply_to(sequence)->status, ReplyStatus::Accepted) << vm.reply_to(sequence)->text;
     ASSERT_TRUE(reaches(MachinePhase::Running, 2)) << describe(vm);

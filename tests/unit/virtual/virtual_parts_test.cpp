@@ -22,12 +22,12 @@ MachineConfig two_axes() {
 
 TEST(MachineClocks, ReadTheMachinesTimeUnlessSetOtherwise) {
     MachineClocks clocks({{.process = {.offset = Ticks{500}}, .device = {.offset = Ticks{-3}}}}, kStart);
-    EXPECT_EQ(clocks.process(0, kStart), kStart + Ticks{500});
-    EXPECT_EQ(clocks.device(0, kStart), kStart - Ticks{3});
-    EXPECT_EQ(clocks.process(1, kStart), kStart);
-    clocks.set_process(1, Ticks{7});
-    EXPECT_EQ(clocks.process(1, kStart), kStart + Ticks{7});
-    EXPECT_EQ(clocks.device(1, kStart), kStart);
+    EXPECT_EQ(clocks.process(MotorIndex{0}, kStart), kStart + Ticks{500});
+    EXPECT_EQ(clocks.device(MotorIndex{0}, kStart), kStart - Ticks{3});
+    EXPECT_EQ(clocks.process(MotorIndex{1}, kStart), kStart);
+    clocks.set_process(MotorIndex{1}, Ticks{7});
+    EXPECT_EQ(clocks.process(MotorIndex{1}, kStart), kStart + Ticks{7});
+    EXPECT_EQ(clocks.device(MotorIndex{1}, kStart), kStart);
 }
 
 TEST(MachineClocks, TheCoordinatorsClockBeginsAnewAfterAReboot) {
@@ -134,13 +134,13 @@ TEST(VirtualClient, NumbersItsCommands) {
 TEST(VirtualDevices, AStoppedDeviceDoesNotGoOnAndAKilledOneCannotBeOpened) {
     const MachineClocks clocks({}, kStart);
     VirtualDevices devices(two_axes(), clocks, {}, 1, kStart);
-    EXPECT_TRUE(devices.open(0));
+    EXPECT_TRUE(devices.open(MotorIndex{0}));
     const VirtualFault kill{.kind = VirtualFault::Kind::KillDevice, .process = 0};
     devices.begin(kill, kStart + Ticks{10});
-    EXPECT_FALSE(devices.open(0));
-    EXPECT_TRUE(devices.open(1));
+    EXPECT_FALSE(devices.open(MotorIndex{0}));
+    EXPECT_TRUE(devices.open(MotorIndex{1}));
     devices.end(kill, kStart + Ticks{20});
-    EXPECT_TRUE(devices.open(0));
+    EXPECT_TRUE(devices.open(MotorIndex{0}));
 }
 
 }  // namespace

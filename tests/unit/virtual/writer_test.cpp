@@ -167,7 +167,7 @@ TEST_F(Unattended, RunsOnIfItsClientLeavesInOrderOrAnotherClientFallsSilent) {
 TEST_F(TwoWriters, AJogEndsWhenAnotherTakesTheMachineOver) {
     home();
     Jogger key(vm);
-    key.press({{.axis = 0, .speed_mm_s = 20}});
+    key.press({{.axis = AxisIndex{0}, .speed_mm_s = 20}});
     pass(vm, {&key}, Ticks{300'000});
     ASSERT_EQ(vm.state()->phase, MachinePhase::Jogging);
     EXPECT_EQ(code_of(bert.take_over()), FaultCode::None);
@@ -182,7 +182,7 @@ TEST_F(TwoWriters, AJogOfTheFormerWriterEndsThoughTheLeaseIsGivenBackAtOnce) {
     ASSERT_EQ(code_of(anna.take()), FaultCode::None);
     Jogger key(vm);
     key.write_as(anna.writer());
-    key.press({{.axis = 0, .speed_mm_s = 20}});
+    key.press({{.axis = AxisIndex{0}, .speed_mm_s = 20}});
     pass(vm, {&key}, Ticks{300'000});
     ASSERT_EQ(vm.state()->phase, MachinePhase::Jogging);
     EXPECT_EQ(code_of(bert.take_over()), FaultCode::None);

@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 using Press = JogGuard::Press;
 
 JogOrder press(const std::string& stream, std::uint64_t number) {
-    return {.jogs = {{.axis = 0, .speed_mm_s = 5}}, .stream = stream, .press = number};
+    return {.jogs = {{.axis = AxisIndex{0}, .speed_mm_s = 5}}, .stream = stream, .press = number};
 }
 
 JogOrder release(const std::string& stream, std::uint64_t number) {

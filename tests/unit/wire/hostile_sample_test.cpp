@@ -30,7 +30,7 @@ Frame good_frame() {
     const Piece piece{{100}, {1000}, {-10}};
     return {.number = 1,
             .ticks = {200},
-            .touch = {.any_of = {{0, 3}, {1, 3}}},
+            .touch = {.any_of = {{MotorIndex{0}, 3}, {MotorIndex{1}, 3}}},
             .axes = {{{}, {piece, piece}, {piece}}, {{}, {piece}, {piece}}}};
 }
 
@@ -175,7 +175,7 @@ TEST(HostileAxisCommands, AreRefused) {
 
 TEST(HostileCommands, AreRefused) {
     const auto refused = [](const char* field, const auto& change) {
-        auto wire = to_wire(Command{.jogs = {{.axis = 1, .speed_mm_s = 2}}});
+        auto wire = to_wire(Command{.jogs = {{.axis = AxisIndex{1}, .speed_mm_s = 2}}});
         change(static_cast<lockstep_wire_Command&>(wire));
         expect_refused(static_cast<const lockstep_wire_Command&>(wire), field);
     };

@@ -17,7 +17,7 @@ Frame RandomMessages::frame() {
     }
     frame.touch.opens = coin();
     for (std::uint32_t n = index(kMaxTouchInputs + 1); n > 0; --n) {
-        frame.touch.any_of.append({index(kMaxAxes), static_cast<std::uint8_t>(index(kMostInputs))});
+        frame.touch.any_of.append({MotorIndex{index(kMaxAxes)}, static_cast<std::uint8_t>(index(kMostInputs))});
     }
     return frame;
 }
@@ -143,7 +143,7 @@ MachineState RandomMessages::machine_state() {
             .progress = static_cast<double>(between(0, 1000)) / 1000,
             .remaining_s = static_cast<double>(between(0, 1'000'000)) / 7,
             .overrides = {static_cast<int>(between(10, 200)), static_cast<int>(between(10, 200))},
-            .axes_present = bits(),
+            .motors_present = MotorSet::of_bits(bits()),
             .config_hash = bits(),
             .devices = devices(),
             .lease = maybe(HeldLease{writer(), {far()}}),
@@ -188,7 +188,7 @@ LeaseHolder RandomMessages::writer() {
 std::vector<JogAxis> RandomMessages::jogs() {
     std::vector<JogAxis> jogs(index(64 + 1));
     for (JogAxis& jog : jogs) {
-        jog = {index(kMaxAxes), static_cast<double>(between(-1'000'000, 1'000'000)) / 7,
+        jog = {AxisIndex{index(kMaxAxes)}, static_cast<double>(between(-1'000'000, 1'000'000)) / 7,
                maybe(static_cast<double>(between(1, 1'000'000)) / 7)};
     }
     return jogs;
@@ -198,7 +198,7 @@ Command RandomMessages::command() {
     return {.client = bits(),
             .sequence = bits(),
             .kind = static_cast<CommandKind>(index(13)),
-            .axes = bits(),
+            .axes = AxisSet::of_bits(bits()),
             .program = bits(),
             .ticks = maybe(Ticks{between(1, INT32_MAX)}),
             .feed_percent = maybe(static_cast<int>(between(1, UINT16_MAX))),

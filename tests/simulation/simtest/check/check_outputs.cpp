@@ -29,7 +29,8 @@ bool has_words(const Course& course) {
 
 /// How far the known time of an event of a motor's device may be from the true one.
 Ticks error_at(const Recording& recording, std::size_t motor, Tick truth) {
-    const Ticks own = estimates_clock(recording.machine, motor) ? recording.motors[motor].bound_at(truth) : Ticks{};
+    const Ticks own =
+        estimates_clock(recording.machine, MotorIndex{motor}) ? recording.motors[motor].bound_at(truth) : Ticks{};
     return own + Ticks{3};
 }
 

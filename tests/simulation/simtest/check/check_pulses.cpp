@@ -204,7 +204,7 @@ Violations check_pulses(const Recording& recording, const Followings& followings
     for (const OutputConfig& output : recording.machine.outputs) {
         if (!output.makes_pulses()) { continue; }
         const std::size_t m = motor_named(recording.machine, output.motor).value();
-        const double steps_per_mm = 1 / kinematics.axis_mm(kinematics.motors()[m].axis.value(), m);
+        const double steps_per_mm = 1 / kinematics.axis_mm(kinematics.motors()[m].axis.value(), MotorIndex{m});
         for (std::size_t k = 0; k < recording.jobs.size(); ++k) {
             const JobRecord& job = recording.jobs[k];
             if (job.homing || job.outcome == JobOutcome::Failed || may_hide(recording, m, job)) { continue; }

@@ -9,7 +9,7 @@ namespace {
 InputConfig draw_input(Draw& draw, const MachineConfig& machine, const char* name, int channel, InputUse use) {
     const std::size_t motor = draw.index(motor_count(machine));
     return {.name = name,
-            .motor = motor_name(machine, motor),
+            .motor = motor_name(machine, MotorIndex{motor}),
             .at_board = motor >= moving_motor_count(machine),
             .channel = channel,
             .use = use,

@@ -11,7 +11,7 @@ namespace lockstep::simtest {
 namespace {
 
 JogAxis draw_axis(Draw& draw, const AxisConfig& axis, std::size_t number) {
-    JogAxis jog{.axis = static_cast<std::uint32_t>(number)};
+    JogAxis jog{.axis = AxisIndex{number}};
     const double top = axis.max_velocity_mm_s;
     jog.speed_mm_s = (draw.chance(0.5) ? 1 : -1) * (draw.chance(0.3) ? top : draw.magnitude(0.02, 1) * top);
     if (draw.chance(0.25)) {
@@ -24,7 +24,7 @@ JogPress draw_press(Draw& draw, const MachineConfig& machine) {
     JogPress press;
     const std::size_t first = draw.index(machine.axes.size());
     press.axes.push_back(draw_axis(draw, machine.axes[first], first));
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         if (i != first && draw.chance(0.25)) { press.axes.push_back(draw_axis(draw, machine.axes[i], i)); }
     }
     press.held_s = draw.magnitude(0.005, 2);

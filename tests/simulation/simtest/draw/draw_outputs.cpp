@@ -18,7 +18,7 @@ constexpr int kDigital = 3;
 std::vector<OutputConfig> draw_outputs(Draw& draw, const MachineConfig& machine) {
     std::vector<OutputConfig> outputs;
     const auto add = [&](OutputConfig output) {
-        output.motor = motor_name(machine, draw.index(motor_count(machine)));
+        output.motor = motor_name(machine, MotorIndex{draw.index(motor_count(machine))});
         output.stays_at_interruption = draw.chance(0.5);
         output.stays_at_fault = draw.chance(0.3);
         output.stays_at_silence = true;  // stalls are long in these runs
@@ -123,8 +123,8 @@ void give_pulses(std::uint64_t seed, Scenario& scenario) {
     if (pulses.none() || draw.chance(0.3)) { return; }
     scenario.machine.outputs.push_back(pulses.output());
     const Kinematics kinematics(scenario.machine);
-    const std::size_t motor = motor_named(scenario.machine, pulses.output().motor).value();
-    const double steps_per_mm = 1 / kinematics.axis_mm(pulses.axis(), motor);
+    const MotorIndex motor = motor_named(scenario.machine, pulses.output().motor).value();
+    const double steps_per_mm = 1 / kinematics.axis_mm(AxisIndex{pulses.axis()}, motor);
     for (Task& task : scenario.tasks) {
         std::vector<Block>& blocks = task.program.blocks;
         const AxisConfig& axis = scenario.machine.axes[pulses.axis()];

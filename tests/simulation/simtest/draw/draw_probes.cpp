@@ -44,7 +44,7 @@ Task draw_probing_task(Draw& draw, const Scenario& scenario) {
 InputConfig draw_input(Draw& draw, const MachineConfig& machine, std::string name, int channel) {
     const std::size_t motor = draw.index(motor_count(machine));
     return {.name = std::move(name),
-            .motor = motor_name(machine, motor),
+            .motor = motor_name(machine, MotorIndex{motor}),
             .at_board = motor >= moving_motor_count(machine),
             .channel = channel,
             .use = InputUse::Probe,

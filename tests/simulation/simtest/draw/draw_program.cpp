@@ -13,7 +13,7 @@ constexpr std::int64_t kMostGroups = 8;
 class ProgramDrawer {
 public:
     ProgramDrawer(Draw& draw, const MachineConfig& machine) : draw_(draw), machine_(machine) {
-        for (std::size_t i = 0; i < machine.axes.size(); ++i) { places_.push_back(i); }
+        for (const AxisIndex i : axis_indices(machine.axes.size())) { places_.push_back(i); }
         for (std::size_t i = places_.size(); i > 1; --i) { std::swap(places_[i - 1], places_[draw.index(i)]); }
         if (draw.chance(0.2)) { places_.resize(1 + draw.index(places_.size())); }
         program_.name = "drawn";

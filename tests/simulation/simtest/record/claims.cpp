@@ -6,11 +6,11 @@
 
 namespace lockstep::simtest {
 
-void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) {
+void ClaimCheck::on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& node) {
     const std::int64_t encoder = vm_.device(axis).plant().encoder();
     const bool has_moved = std::exchange(encoder_[axis], encoder) != encoder || vm_.device(axis).in_motion();
     if (has_moved) { moved_[axis] = now; }
-    const bool is_by_touch = has_axis(by_touch_, axis);
+    const bool is_by_touch = by_touch_.contains(axis);
     if (!row_of(motors_[axis].homing.way).searches && !is_by_touch) { note_zero(axis, out); }
     if (!out.state) { return; }
     const AxisState& state = *out.state;

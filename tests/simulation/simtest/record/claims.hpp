@@ -19,7 +19,8 @@ public:
         : vm_(vm),
           recording_(recording),
           motors_(motors_of(vm.machine())),
-          by_touch_(Kinematics(vm.machine()).motors_of_axes(axes_homed_by_touch(~AxisSet{0}, vm.machine()))),
+          by_touch_(Kinematics(vm.machine())
+                        .motors_of_axes(axes_homed_by_touch(AxisSet::first(vm.machine().axes.size()), vm.machine()))),
           pulses_(recording.motors.size(), 0),
           power_up_(recording.motors.size(), Tick{std::numeric_limits<std::int64_t>::min()}),
           has_device_(recording.motors.size(), true),
@@ -30,10 +31,10 @@ public:
           is_zero_new_(recording.motors.size()) {}
 
     /// Pulses of a device that was replaced meanwhile can be reported late.
-    void on_step(std::size_t axis, StepEdge step) override {
+    void on_step(MotorIndex axis, StepEdge step) override {
         if (step.tick >= power_up_[axis]) { pulses_[axis] += step.direction; }
     }
-    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
+    void on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
 
 private:
@@ -44,7 +45,7 @@ private:
     VirtualMachine& vm_;
     Recording& recording_;
     std::vector<MotorConfig> motors_;
-    AxisSet by_touch_;                  // motors that are homed by it
+    MotorSet by_touch_;                 // motors that are homed by it
     std::vector<std::int64_t> pulses_;  // since the device's power-up
     std::vector<Tick> power_up_;        // in its own time
     std::vector<bool> has_device_;      // the device works, and the axis uses it

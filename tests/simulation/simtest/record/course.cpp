@@ -124,13 +124,13 @@ private:
     void add_line(const ProgramMove& move) {
         Stretch stretch{.to = at_};
         for (std::size_t i = 0; i < program_.axes.size(); ++i) {
-            for (std::size_t a = 0; a < machine_.axes.size(); ++a) {
+            for (const AxisIndex a : axis_indices(machine_.axes.size())) {
                 const AxisConfig& axis = machine_.axes[a];
                 if (axis.name == program_.axes[i]) { stretch.to[a] = move.target_mm[i] * axis.steps_per_mm; }
             }
         }
         // An axis that rests beyond its travel, because its motors rest on whole steps, returns with the next move.
-        for (std::size_t a = 0; a < machine_.axes.size(); ++a) {
+        for (const AxisIndex a : axis_indices(machine_.axes.size())) {
             const AxisConfig& axis = machine_.axes[a];
             stretch.to[a] = std::clamp(stretch.to[a], static_cast<double>(nearest_step(axis, axis.position_min_mm)),
                                        static_cast<double>(nearest_step(axis, axis.position_max_mm)));
@@ -264,7 +264,7 @@ private:
         Stretch& stretch = course_.stretches[k];
         stretch.feed_ticks = length_mm(machine_, start_of(k), stretch.to) * ticks_per_mm;
         double step_mm = 0;
-        for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
+        for (const AxisIndex i : axis_indices(machine_.axes.size())) {
             step_mm = std::max(step_mm, motors_.step_of(i) / machine_.axes[i].steps_per_mm);
         }
         const double tolerance_mm = stretch.is_joined ? std::max(stretch.tolerance_mm, step_mm) : 0;

@@ -189,7 +189,8 @@ private:
 
     /// The time error of a step: the clock error bound, the rounding in time, and the rounding in this check.
     Ticks error_at(std::size_t i, Tick truth) const {
-        return estimates_clock(recording_.machine, i) ? recording_.motors[i].bound_at(truth) + Ticks{3} : Ticks{};
+        return estimates_clock(recording_.machine, MotorIndex{i}) ? recording_.motors[i].bound_at(truth) + Ticks{3}
+                                                                  : Ticks{};
     }
     StepTimes times_of(std::size_t i, const StepEdge& step) const {
         const Tick truth = recording_.motors[i].truth(step);

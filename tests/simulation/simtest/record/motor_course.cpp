@@ -100,7 +100,7 @@ private:
         double steps = 1;
         for (std::size_t m = 0; m < map_.motors(); ++m) {
             double of_motor = 0;
-            for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
+            for (const AxisIndex i : axis_indices(machine_.axes.size())) {
                 of_motor += std::abs(map_.share(m, i)) * machine_.axes[i].steps_per_mm * mm;
             }
             steps = std::max(steps, of_motor);

@@ -59,7 +59,7 @@ std::vector<double> steepest(const Carriages& carriages, std::size_t tower, std:
 double bend_of(const MachineConfig& machine, const Carriages& carriages, std::size_t tower) {
     const Carriages::Tool at = carriages.furthest_corner(tower);
     Carriages::Tool speed{};
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         const auto coordinate = carriages.coordinate_of(i);
         if (coordinate) { speed[*coordinate] = machine.axes[i].max_velocity_mm_s; }
     }
@@ -100,7 +100,7 @@ MotorShares::MotorShares(const MachineConfig& machine)
       is_direct_(machine.kinematics == KinematicsConfig{} &&
                  std::ranges::all_of(
                      machine.axes, [](const AxisConfig& axis) { return axis.motors.empty() && axis.screw.empty(); })) {
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         axis_steps_per_mm_.push_back(machine.axes[i].steps_per_mm);
         if (machine.axes[i].motors.empty()) { add(machine, i, nullptr); }
         for (const MotorBlock& block : machine.axes[i].motors) { add(machine, i, &block); }

@@ -27,6 +27,14 @@ struct Hash {
     template <typename Number>
     requires std::integral<Number> || std::is_enum_v<Number>
     void add(Number number) { value = (value ^ static_cast<std::uint64_t>(number)) * 0x100000001b3U; }
+    template <typename Of>
+    void add(Index<Of> index) {
+        add(index.number());
+    }
+    template <typename AnIndex>
+    void add(IndexSet<AnIndex> set) {
+        add(set.bits());
+    }
     /// To a millionth: the last bits may depend on the compiler.
     void add(double number) { add(std::llround(number * 1e6)); }
     void add(Tick tick) { add(tick.value); }
@@ -82,7 +90,7 @@ struct Hash {
     void add(const ProbeResult& p) { of(p.job, p.touched(), p.tick, p.places_mm); }
     void add(const MachineState& s) {
         of(s.term, s.stamp, s.tick, s.phase, s.fault, s.fault_axis, s.epoch, s.sent, s.veto, s.job, s.outcome,
-           s.job_begun, s.line, s.job_fault, s.lacks_blocks, s.progress, s.remaining_s, s.overrides, s.axes_present,
+           s.job_begun, s.line, s.job_fault, s.lacks_blocks, s.progress, s.remaining_s, s.overrides, s.motors_present,
            s.config_hash, s.devices, s.lease, s.pause, s.job_kind, s.program, s.events_from, s.rests);
         add_if(s.probe.has_value(), s.probe);
     }
@@ -126,7 +134,7 @@ struct Hash {
 
 }  // namespace
 
-void PublicationHash::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode&) {
+void PublicationHash::on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode&) {
     if (!out.state && out.orders.empty() && out.tracks.empty() && out.notices.empty()) { return; }
     Hash{hash_}.of(axis, now, out.state, out.orders, out.tracks, out.notices, out.device_changed);
 }

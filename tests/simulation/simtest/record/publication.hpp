@@ -10,7 +10,7 @@ namespace lockstep::simtest {
 
 class PublicationHash : public VirtualObserver {
 public:
-    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
+    void on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
 
     std::uint64_t value() const { return hash_; }

@@ -82,7 +82,7 @@ Followed MotorRecord::followed_at(Tick truth) const {
     return later == followed.begin() ? Followed{} : *std::prev(later);
 }
 
-void Recorder::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) {
+void Recorder::on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& node) {
     if (out.state) { take_state(axis, *out.state, now); }
     for (const ExecutedTrack& executed : out.tracks) {
         recording_.motors[axis].tracks.push_back(track_of(executed, armed_[axis]));
@@ -122,7 +122,7 @@ void Recorder::take_notice(std::size_t axis, const AxisNotice& notice, const Axi
     const bool explained = explains(recording_, notice.fault);
     const bool refuses = notice.kind == Kind::FrameRefused && recording_.network.corrupted == 0;
     if (refuses || (notice.kind == Kind::Fault && !explained)) {
-        recording_.troubles.push_back(motor_name(recording_.machine, axis) + ": " +
+        recording_.troubles.push_back(motor_name(recording_.machine, MotorIndex{axis}) + ": " +
                                       (refuses ? "frame refused: " : "fault ") + std::string(name_of(notice.fault)) +
                                       " " + node.device().trouble());
     }

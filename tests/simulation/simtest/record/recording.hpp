@@ -202,11 +202,11 @@ public:
     explicit Recorder(Recording& recording)
         : recording_(recording), epoch_(recording.motors.size(), 0), armed_(recording.motors.size(), 0) {}
 
-    void on_step(std::size_t axis, StepEdge step) override { recording_.motors[axis].steps.push_back(step); }
-    void on_channel(std::size_t axis, const ChannelEvent& event) override {
+    void on_step(MotorIndex axis, StepEdge step) override { recording_.motors[axis].steps.push_back(step); }
+    void on_channel(MotorIndex axis, const ChannelEvent& event) override {
         recording_.motors[axis].channels.push_back(event);
     }
-    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
+    void on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
 

@@ -157,7 +157,7 @@ void Bench::settle(double seconds) {
 }
 
 const Reply* Bench::ask(CommandKind kind, std::uint64_t program) {
-    return over_ ? nullptr : await_reply(vm_.command(kind, 0, program));
+    return over_ ? nullptr : await_reply(vm_.command(kind, {}, program));
 }
 
 const Reply* Bench::ask_in_time(CommandKind kind, std::uint64_t program) {

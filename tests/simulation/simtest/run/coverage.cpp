@@ -121,7 +121,7 @@ void CoverageWatch::take_transitions(std::size_t axis) {
     transitions_[axis] = {};
 }
 
-void CoverageWatch::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) {
+void CoverageWatch::on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& node) {
     transitions_[axis] = node.controller().transitions();
     const Slot slot = rules::slot_of(now, machine_.slot_ticks());
     for (const AxisNotice& notice : out.notices) {

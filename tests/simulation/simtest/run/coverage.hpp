@@ -37,7 +37,7 @@ public:
     CoverageWatch(const CoverageWatch&) = delete;
     CoverageWatch& operator=(const CoverageWatch&) = delete;
 
-    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
+    void on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
 

@@ -7,7 +7,7 @@ namespace lockstep::simtest {
 
 using Edge = PlannedFault::Edge;
 
-void FaultPlacer::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) {
+void FaultPlacer::on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) {
     for (const AxisNotice& notice : out.notices) {
         if (notice.kind != AxisNotice::Kind::OwnerAdopted || now < last_) { continue; }
         ++followed_;

@@ -26,7 +26,7 @@ bool must_home(const Bench& bench, const Counts& motors) {
     const Counts axes = bench.axes_at(motors);
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const AxisConfig& axis = bench.machine().axes[i];
-        const std::int64_t rests = bench.kinematics().rest_steps(i);
+        const std::int64_t rests = bench.kinematics().rest_steps(AxisIndex{i});
         if (axes[i] < nearest_step(axis, axis.position_min_mm) - rests) { return true; }
         if (axes[i] > nearest_step(axis, axis.position_max_mm) + rests) { return true; }
     }
@@ -106,20 +106,21 @@ bool has_screws(const MachineConfig& machine) {
 }
 
 /// Motors that are moved by axes that home by touch.
-AxisSet homed_by_touch(const Bench& bench) {
-    return bench.kinematics().motors_of_axes(axes_homed_by_touch(~AxisSet{0}, bench.machine()));
+MotorSet homed_by_touch(const Bench& bench) {
+    return bench.kinematics().motors_of_axes(
+        axes_homed_by_touch(AxisSet::first(bench.machine().axes.size()), bench.machine()));
 }
 
 /// The park position, on a whole step of the axis if motors correct screws or the axis homes by touch. A motor that
 /// lost its coordinator on the way, with its zero set, rests where it reports; check_slides() compares that with the
 /// true place of the slide.
-std::int64_t place_after_homing(const Bench& bench, std::size_t motor, JobOutcome outcome) {
+std::int64_t place_after_homing(const Bench& bench, MotorIndex motor, JobOutcome outcome) {
     const AxisState& state = bench.watch().motors()[motor];
     if (outcome != JobOutcome::Done && state.homed && state.at_rest) {
         return state.position.count() - state.play_steps;
     }
     const MotorConfig& config = bench.kinematics().motors()[motor];
-    const bool is_by_touch = has_axis(homed_by_touch(bench), motor);
+    const bool is_by_touch = homed_by_touch(bench).contains(motor);
     if (!bench.map().is_curved(motor) && !is_by_touch) { return nearest_step(config, config.homing.park_mm); }
     Places park;
     for (const AxisConfig& axis : bench.machine().axes) {
@@ -145,10 +146,10 @@ int most_tries(const Bench& bench) {
 /// together with others by touch. A motor that is still homed objects with a Fault.
 void put_to_park(Bench& bench) {
     bool moves = false;
-    const AxisSet by_touch = homed_by_touch(bench);
-    for (std::size_t m = 0; m < bench.kinematics().motors().size(); ++m) {
+    const MotorSet by_touch = homed_by_touch(bench);
+    for (const MotorIndex m : motor_indices(bench.kinematics().motors().size())) {
         const MotorConfig& motor = bench.kinematics().motors()[m];
-        if (row_of(motor.homing.way).searches || has_axis(by_touch, m)) { continue; }
+        if (row_of(motor.homing.way).searches || by_touch.contains(m)) { continue; }
         const double off_mm = motor.homing.park_mm - bench.vm().device(m).plant().position_mm();
         const std::int64_t steps = std::llround(off_mm * motor.steps_per_mm);
         if (std::abs(steps) <= most_following_error(motor)) { continue; }  // a homed motor would not notice
@@ -226,7 +227,7 @@ void play_homing(Bench& bench, Counts& at, const std::optional<HomingStop>& stop
     if (!undisturbed) { bench.settle(seconds); }
     job.end_step = bench.steps_made();
     job.outcome = bench.watch().outcome().value_or(JobOutcome::Failed);
-    for (std::size_t i = 0; i < at.size(); ++i) {
+    for (const MotorIndex i : motor_indices(at.size())) {
         const bool searches = row_of(bench.kinematics().motors()[i].homing.way).searches;
         const bool in_place = !searches && bench.watch().motors()[i].homed;
         if (job.end_step[i] == job.first_step[i] && !in_place) { continue; }  // it was not reached

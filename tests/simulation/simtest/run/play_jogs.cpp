@@ -74,7 +74,7 @@ const Reply* JogPlayer::answer() const {
 /// Motors of one axis with different steps may rest, after a stop on a path that began on their whole steps, where no
 /// place of the axis rounds to all of them. Then the axis must be homed.
 bool JogPlayer::has_astray_motors() const {
-    for (std::size_t i = 0; i < bench_.machine().axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(bench_.machine().axes.size())) {
         double least = -std::numeric_limits<double>::infinity();
         double most = std::numeric_limits<double>::infinity();
         for (std::size_t m = 0; m < bench_.map().motors(); ++m) {

@@ -16,7 +16,7 @@ double within_steps(const Bench& bench, std::size_t motor) {
     constexpr double kHalf = 0.5 + 1e-6;
     if (bench.map().is_direct()) { return kHalf; }
     double most = 0;
-    for (std::size_t axis = 0; axis < bench.machine().axes.size(); ++axis) {
+    for (const AxisIndex axis : axis_indices(bench.machine().axes.size())) {
         most = std::max(most, std::abs(bench.map().share(motor, axis)) * bench.map().step_of(axis));
     }
     return kHalf + most;
@@ -34,7 +34,7 @@ void measure(const Bench& bench, double feed_mm_s, const Counts& at, ProbeRecord
     const Counts rest = bench.axes_at(at);
     double most_decel = std::numeric_limits<double>::max();
     double steps_mm = 0;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         const double mm = static_cast<double>(rest[i]) / machine.axes[i].steps_per_mm - record.result.places_mm[i];
         record.went_on_mm = std::hypot(record.went_on_mm, mm);
         steps_mm += 2 * bench.kinematics().step_mm(i);
@@ -73,7 +73,7 @@ ProbeRecord probe_record(Bench& bench, const Program& program, const JobRecord& 
     const MachineConfig& machine = bench.machine();
     ProbeRecord record{.result = *bench.vm().state()->probe, .touches = {}, .from = {}, .places = {}, .within = {}};
     Places places;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         places.push_back(record.result.places_mm[i] * machine.axes[i].steps_per_mm);
     }
     for (std::size_t m = 0; m < at.size(); ++m) {

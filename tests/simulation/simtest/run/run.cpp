@@ -13,7 +13,7 @@ namespace {
 /// A machine that no configuration could describe proves nothing.
 Violations check_configuration(const MachineConfig& machine) {
     std::vector<Problem> problems = machine_problems(machine);
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         for (Problem& problem : axis_problems(machine, i)) { problems.push_back(std::move(problem)); }
         for (Problem& problem : motor_problems(machine, i)) { problems.push_back(std::move(problem)); }
     }

@@ -45,7 +45,7 @@ std::string text_of(const Reply& reply) {
 }  // namespace
 
 std::string Trace::process(std::size_t number) const {
-    if (number < motor_count(machine_)) { return motor_name(machine_, number); }
+    if (number < motor_count(machine_)) { return motor_name(machine_, MotorIndex{number}); }
     return number == motor_count(machine_) ? "coordinator" : "standby";
 }
 
@@ -54,7 +54,7 @@ void Trace::line(Tick now, const std::string& who, const std::string& what) cons
                 who.c_str(), what.c_str());
 }
 
-void Trace::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) {
+void Trace::on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) {
     for (const AxisNotice& notice : out.notices) { line(now, process(axis), text_of(notice)); }
     for (const DeviceOrder& order : out.orders) {
         if (const auto* arm = std::get_if<device::Arm>(&order)) {

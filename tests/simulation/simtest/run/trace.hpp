@@ -9,7 +9,7 @@ class Trace : public VirtualObserver {
 public:
     explicit Trace(const MachineConfig& machine) : machine_(machine) {}
 
-    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
+    void on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_coordinator(std::size_t number, Tick now, const CoordinatorOutputs& out) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
 

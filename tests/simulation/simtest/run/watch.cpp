@@ -59,7 +59,7 @@ void Watch::orphan(JobOutcome outcome) {
     if (on_takeover_ == OnTakeover::Stop) { cut_short(outcome); }
 }
 
-void Watch::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) {
+void Watch::on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) {
     if (vm_.device(axis).in_motion()) { moved_ = now; }  // also while a restarted process sends nothing yet
     if (!out.state) { return; }
     motors_[axis] = *out.state;

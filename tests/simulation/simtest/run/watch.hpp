@@ -17,7 +17,7 @@ public:
     void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
     /// A coordinator that ends loses its phase.
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
-    void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
+    void on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
 
     /// The begin of the last fault.
     std::optional<Tick> disturbed() const { return disturbed_; }

@@ -386,7 +386,7 @@ TEST_F(EndOfEpoch, NamesTheAxisThatRanOtherFrames) {
         const auto end = runner.evaluate(slot, axes);
         ASSERT_TRUE(end.has_value());
         EXPECT_EQ(end->kind, EpochEnd::Kind::FramesDiffer);
-        EXPECT_EQ(end->axis, i);
+        EXPECT_EQ(end->motor, i);
         axes[i].state->ran = kRan;
     }
 }
@@ -397,7 +397,7 @@ TEST_F(EndOfEpoch, NamesTheAxisThatIsMisplaced) {
         const auto end = runner.evaluate(slot, axes);
         ASSERT_TRUE(end.has_value());
         EXPECT_EQ(end->kind, EpochEnd::Kind::Misplaced);
-        EXPECT_EQ(end->axis, i);
+        EXPECT_EQ(end->motor, i);
         axes[i].state->position = rest;
     }
 }

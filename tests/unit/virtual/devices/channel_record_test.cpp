@@ -24,7 +24,7 @@ protected:
     explicit ChannelRecords(VirtualOptions options = {.machine = small_machine()}) : Rig(std::move(options)) {
         vm.observe(*this);
     }
-    void on_step(std::size_t axis, StepEdge step) override {
+    void on_step(MotorIndex axis, StepEdge step) override {
         if (axis != 0) { return; }
         count_ += step.direction;
         steps_.emplace(step.tick, count_);

@@ -27,7 +27,7 @@ protected:
     void move_y_on_its_own() {
         home();
         vm.give_program(77, program_of({{5, 90}}, 0));
-        ASSERT_EQ(ask(CommandKind::MoveOwn, 0, 77).status, ReplyStatus::Accepted);
+        ASSERT_EQ(ask(CommandKind::MoveOwn, {}, 77).status, ReplyStatus::Accepted);
         wait(0.3);
     }
     void expect_device_lost() {

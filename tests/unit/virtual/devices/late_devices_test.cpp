@@ -62,7 +62,7 @@ TEST_F(LateDevices, AnOwnMoveMakesTheStepsOfItsMethod) {
     StepLog late;
     vm.observe(late);
     vm.give_program(1, program_of({{40, 5}}, 0));
-    ASSERT_EQ(ask(CommandKind::MoveOwn, 0, 1).status, ReplyStatus::Accepted);
+    ASSERT_EQ(ask(CommandKind::MoveOwn, {}, 1).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
 
     VirtualOptions options = late_devices();
@@ -76,7 +76,7 @@ TEST_F(LateDevices, AnOwnMoveMakesTheStepsOfItsMethod) {
     (void)other.advance_until([] { return false; }, Ticks{8'000'000});
     other.observe(at_hand);
     other.give_program(1, program_of({{40, 5}}, 0));
-    (void)other.command(CommandKind::MoveOwn, 0, 1);
+    (void)other.command(CommandKind::MoveOwn, {}, 1);
     (void)other.advance_until([] { return false; }, Ticks{3'000'000});
 
     ASSERT_EQ(late.steps.size(), 3500u);
@@ -117,7 +117,7 @@ TEST_F(LateDevices, OneThatNoLongerAnswersIsLostAndIsUsedAgainAfterAReset) {
 /// In the loop that loses the device, too.
 TEST_F(LateDevices, WhatALostOneHasRunIsRecordedByItsOwnClock) {
     struct Tracks : VirtualObserver {
-        void on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
+        void on_axis(MotorIndex axis, Tick /*now*/, const AxisOutputs& out, AxisNode& /*node*/) override {
             for (const ExecutedTrack& track : out.tracks) {
                 if (axis == kX) { ahead.push_back(track.start - track.commanded_start); }
             }
@@ -142,7 +142,7 @@ TEST_F(LateDevices, WhatALostOneHasRunIsRecordedByItsOwnClock) {
 /// Answers were on their way to the process that ended. Their steps reach the next one.
 TEST_F(LateDevices, NoStepIsLostWhenAProcessEnds) {
     struct Steps : VirtualObserver {
-        void on_step(std::size_t axis, StepEdge step) override { sum[axis] += step.direction; }
+        void on_step(MotorIndex axis, StepEdge step) override { sum[axis] += step.direction; }
         std::map<std::size_t, std::int64_t> sum;
     } steps;
     vm.observe(steps);

@@ -18,7 +18,7 @@ protected:
         : Rig({.machine = machine_with(std::move(inputs), has_board)}) {
         vm.observe(*this);
     }
-    void on_step(std::size_t axis, StepEdge step) override { last_step[axis] = step.tick; }
+    void on_step(MotorIndex axis, StepEdge step) override { last_step[axis] = step.tick; }
 
     static MachineConfig machine_with(std::vector<InputConfig> inputs, bool has_board) {
         MachineConfig machine = small_machine();
@@ -143,12 +143,12 @@ TEST_F(LimitsAtABoard, LetNothingMoveButAJogAway) {
     EXPECT_EQ(why(ask(CommandKind::Home)), FaultCode::LimitHit);
     const auto at = counts();
     Jogger jogger(vm);
-    jogger.press({{.axis = kX, .speed_mm_s = 10}});
+    jogger.press({{.axis = AxisIndex{kX}, .speed_mm_s = 10}});
     pass(vm, {&jogger}, Ticks{300'000});
     ASSERT_NE(jogger.reply(), nullptr);
     EXPECT_THAT(jogger.reply()->text, HasSubstr("jog the axis in the other direction"));
     EXPECT_EQ(counts(), at);
-    jogger.press({{.axis = kX, .speed_mm_s = -10}});
+    jogger.press({{.axis = AxisIndex{kX}, .speed_mm_s = -10}});
     pass(vm, {&jogger}, Ticks{300'000});
     EXPECT_LT(counts()[kX], at[kX] - 100);
     jogger.release();
@@ -162,7 +162,7 @@ TEST_F(LimitsAtABoard, LetNothingMoveButAJogAway) {
 TEST_F(LimitsAtABoard, EndAJogTowardThem) {
     home();
     Jogger jogger(vm);
-    jogger.press({{.axis = kX, .speed_mm_s = 10}});
+    jogger.press({{.axis = AxisIndex{kX}, .speed_mm_s = 10}});
     pass(vm, {&jogger}, Ticks{300'000});
     vm.set_input(0, true);
     pass(vm, {&jogger}, Ticks{500'000});
@@ -174,7 +174,7 @@ TEST_F(LimitsAtABoard, EndAJogTowardThem) {
 TEST_F(LimitsAtABoard, StopAnUnhomedAxisWithinTheirOvershoot) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
     Jogger jogger(vm);
-    jogger.press({{.axis = kX, .speed_mm_s = 30}});
+    jogger.press({{.axis = AxisIndex{kX}, .speed_mm_s = 30}});
     pass(vm, {&jogger}, Ticks{5'000'000});
     EXPECT_EQ(fault(), FaultCode::LimitHit) << describe();
     const double behind = vm.device(kX).plant().position_mm() - 102;

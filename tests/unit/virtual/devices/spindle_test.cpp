@@ -26,7 +26,7 @@ MachineConfig mill(double spin_up_s) {
 class ASpindle : public Rig, public VirtualObserver {
 protected:
     explicit ASpindle(double spin_up_s = 30) : Rig({.machine = mill(spin_up_s)}) { vm.observe(*this); }
-    void on_step(std::size_t /*axis*/, StepEdge step) override {
+    void on_step(MotorIndex /*axis*/, StepEdge step) override {
         first_step = std::min(first_step.value_or(step.tick), step.tick);
     }
 

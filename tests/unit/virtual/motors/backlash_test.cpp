@@ -36,7 +36,7 @@ protected:
     double shown_mm(std::size_t axis) const {
         std::vector<const AxisState*> states;
         for (const auto& state : vm.axis_states()) { states.push_back(&*state); }
-        const auto state = axis_state_of(axis, kinematics, states);
+        const auto state = axis_state_of(AxisIndex{axis}, kinematics, states);
         return to_mm(vm.machine().axes[axis], state->position.as_steps());
     }
     double slide_mm(std::size_t motor) { return vm.device(motor).plant().position_mm(); }
@@ -89,7 +89,7 @@ TEST_F(Loose, KeepsACircleRoundAtItsQuadrants) {
     class Roundness : public VirtualObserver {
     public:
         Roundness(VirtualMachine& machine) : vm(machine) {}
-        void on_step(std::size_t, StepEdge) override {
+        void on_step(MotorIndex, StepEdge) override {
             const double x = vm.device(kX).plant().position_mm() - 40;
             const double y = vm.device(kY).plant().position_mm() - 50;
             most = std::max(most, std::abs(std::hypot(x, y) - 10));
@@ -113,14 +113,14 @@ TEST_F(Loose, KeepsACircleRoundAtItsQuadrants) {
 
 TEST_F(Loose, IsJoggedByDistancesOfTheSlides) {
     home();
-    client.press({{.axis = kX, .speed_mm_s = 20, .distance_mm = 10}});
+    client.press({{.axis = AxisIndex{kX}, .speed_mm_s = 20, .distance_mm = 10}});
     jog(2);
     EXPECT_NEAR(slide_mm(kX), 15, kNear_mm);
-    client.press({{.axis = kX, .speed_mm_s = -20, .distance_mm = 0.5}});
+    client.press({{.axis = AxisIndex{kX}, .speed_mm_s = -20, .distance_mm = 0.5}});
     jog(1);
     EXPECT_NEAR(slide_mm(kX), 14.5, kNear_mm);
     expect_shown_truly();
-    client.press({{.axis = kX, .speed_mm_s = 20}});
+    client.press({{.axis = AxisIndex{kX}, .speed_mm_s = 20}});
     jog(0.8);
     client.die();
     jog(1);
@@ -191,7 +191,7 @@ TEST_F(Loose, KnowsItsSlidesAfterARestartOfItsProcesses) {
 TEST_F(Loose, RefusesAMoveOfItsMotorsAlone) {
     home();
     vm.give_program(70, program_of({{20, 95}}, 0, {5, 95}));
-    const Reply reply = ask(CommandKind::MoveOwn, 0, 70);
+    const Reply reply = ask(CommandKind::MoveOwn, {}, 70);
     EXPECT_EQ(reply.status, ReplyStatus::Refused);
     EXPECT_NE(reply.text.find("axis X moves only on a path"), std::string::npos) << reply.text;
 }

@@ -13,7 +13,7 @@ inline MachineConfig delta_machine() {
     machine.axes.push_back(machine.axes[0]);
     const std::array<const char*, 3> axes{"X", "Y", "Z"};
     const std::array<const char*, 3> motors{"A", "B", "C"};
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
         AxisConfig& axis = machine.axes[i];
         axis.name = axes[i];
         axis.steps_per_mm = 1000;

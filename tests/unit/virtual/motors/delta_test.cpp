@@ -95,7 +95,7 @@ TEST_F(Delta, HomesNoFasterThanItsSearchVelocity) {
 
 TEST_F(Delta, HomesItsAxesTogetherOnly) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
-    const Reply reply = ask(CommandKind::Home, axis_bit(2));
+    const Reply reply = ask(CommandKind::Home, {AxisIndex{2}});
     EXPECT_EQ(reply.status, ReplyStatus::Refused);
     EXPECT_NE(reply.text.find("which can only be homed together"), std::string::npos) << reply.text;
 }
@@ -208,7 +208,7 @@ TEST_F(Delta, RefusesWhatWouldMoveOneCarriageAlone) {
     home();
     const std::vector<std::int64_t> parked = counts();
     vm.give_program(7, program({to({0, 0, 60})}, {0, 0, 80}));
-    const Reply own = ask(CommandKind::MoveOwn, 0, 7);
+    const Reply own = ask(CommandKind::MoveOwn, {}, 7);
     EXPECT_EQ(own.status, ReplyStatus::Refused);
     EXPECT_NE(own.text.find("its motors must move together: A, B, C"), std::string::npos) << own.text;
     EXPECT_EQ(counts(), parked);

@@ -30,7 +30,7 @@ TEST_F(Gantry, IsSquareAfterEachMotorHasFoundItsSwitch) {
 TEST_F(Gantry, ComesNoFurtherApartWhileItSquaresThanItStood) {
     class Apart : public VirtualObserver {
     public:
-        void on_step(std::size_t axis, StepEdge step) override {
+        void on_step(MotorIndex axis, StepEdge step) override {
             if (axis == kY1) { ahead -= step.direction; }
             if (axis == kY2) { ahead += step.direction; }
             most = std::max(most, std::abs(ahead));
@@ -66,7 +66,7 @@ TEST_F(Gantry, RefusesWhatWouldMoveOneMotorAlone) {
     home();
     const Program line = program_of({{5, 10}}, 0, {5, 0});
     vm.give_program(7, line);
-    const Reply own = ask(CommandKind::MoveOwn, 0, 7);
+    const Reply own = ask(CommandKind::MoveOwn, {}, 7);
     EXPECT_EQ(own.status, ReplyStatus::Refused);
     EXPECT_NE(own.text.find("its motors must move together: Y1, Y2"), std::string::npos) << own.text;
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{500, 0, 0}));
@@ -140,7 +140,7 @@ TEST_F(TwoBelts, AreHomedWhereTheyStand) {
 
 TEST_F(TwoBelts, AreHomedTogetherOnly) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
-    const Reply reply = ask(CommandKind::Home, axis_bit(0));
+    const Reply reply = ask(CommandKind::Home, {AxisIndex{0}});
     EXPECT_EQ(reply.status, ReplyStatus::Refused);
     EXPECT_NE(reply.text.find("motor A moves several axes"), std::string::npos) << reply.text;
 }

@@ -69,7 +69,7 @@ TEST_F(GantryJog, MovesBothMotorsByTheSameStepsWhileItIsRenewed) {
     home();
     StepLog log;
     vm.observe(log);
-    ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 20}}));
+    ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 20}}));
     jog(1);
     EXPECT_EQ(phase(), MachinePhase::Jogging);
     client.release();
@@ -88,7 +88,7 @@ TEST_F(GantryJog, MovesBothMotorsByTheSameStepsWhileItIsRenewed) {
 
 TEST_F(GantryJog, EndsWhenItsClientFallsSilent) {
     home();
-    ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 20}}));
+    ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 20}}));
     jog(0.5);
     client.die();
     jog(1.5);
@@ -100,7 +100,7 @@ TEST_F(GantryJog, EndsWhenItsClientFallsSilent) {
 /// Its renewals come late once, and the machine has begun to brake.
 TEST_F(GantryJog, GoesOnWhenRenewalsComeAgain) {
     home();
-    ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 10}}));
+    ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 10}}));
     jog(0.6);
     (void)vm.advance_until([] { return false; }, Ticks{24'000});
     jog(0.006);
@@ -111,7 +111,7 @@ TEST_F(GantryJog, GoesOnWhenRenewalsComeAgain) {
 
 TEST_F(GantryJog, GoesExactlyTheDistanceAskedFor) {
     home();
-    ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 30, .distance_mm = 12.34}}));
+    ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 30, .distance_mm = 12.34}}));
     jog(2);
     EXPECT_EQ(phase(), MachinePhase::Idle);
     EXPECT_NEAR(axis_mm(kY), 12.34, 1e-9);
@@ -121,7 +121,7 @@ TEST_F(GantryJog, GoesTheRestOfItsDistanceWhenRenewalsComeAgain) {
     for (const double begun : {0.05, 0.6}) {
         home();
         const double from = axis_mm(kY);
-        ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 10, .distance_mm = 9}}));
+        ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 10, .distance_mm = 9}}));
         jog(begun);
         (void)vm.advance_until([] { return false; }, Ticks{24'000});
         jog(0.006);
@@ -139,8 +139,8 @@ TEST_F(BeltJog, OfDifferentDistancesGoesOnWithTheLongerOne) {
     vm.observe(log);
     const double x = axis_mm(kX);
     const double y = axis_mm(kY);
-    ASSERT_TRUE(is_accepted(client, {{.axis = kX, .speed_mm_s = 20, .distance_mm = 2.003},
-                                     {.axis = kY, .speed_mm_s = 20, .distance_mm = 6.007}}));
+    ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kX}, .speed_mm_s = 20, .distance_mm = 2.003},
+                                     {.axis = AxisIndex{kY}, .speed_mm_s = 20, .distance_mm = 6.007}}));
     jog(4);
     EXPECT_EQ(phase(), MachinePhase::Idle);
     EXPECT_EQ(log.begun, 2) << "what is left is less than the motors' steps";
@@ -150,10 +150,10 @@ TEST_F(BeltJog, OfDifferentDistancesGoesOnWithTheLongerOne) {
 
 TEST_F(GantryJog, GoesADistanceAgainThatIsAskedForAgain) {
     home();
-    ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 30, .distance_mm = 10}}));
+    ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 30, .distance_mm = 10}}));
     jog(0.2);
     const double at = axis_mm(kY);
-    ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 30, .distance_mm = 10}}));
+    ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 30, .distance_mm = 10}}));
     jog(2);
     EXPECT_EQ(phase(), MachinePhase::Idle);
     EXPECT_GT(axis_mm(kY), at + 10);
@@ -161,9 +161,9 @@ TEST_F(GantryJog, GoesADistanceAgainThatIsAskedForAgain) {
 
 TEST_F(GantryJog, TurnsRoundFromRest) {
     home();
-    ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 30}}));
+    ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 30}}));
     jog(1);
-    ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = -30, .distance_mm = 5}}));
+    ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kY}, .speed_mm_s = -30, .distance_mm = 5}}));
     jog(0.9);
     EXPECT_EQ(phase(), MachinePhase::Idle) << describe();
     EXPECT_GT(axis_mm(kY), 15);
@@ -171,8 +171,8 @@ TEST_F(GantryJog, TurnsRoundFromRest) {
 
 TEST_F(GantryJog, OfAnotherClientIsRefused) {
     home();
-    ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 10}}));
-    const Reply* reply = press(other, {{.axis = kY, .speed_mm_s = -10}});
+    ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 10}}));
+    const Reply* reply = press(other, {{.axis = AxisIndex{kY}, .speed_mm_s = -10}});
     ASSERT_NE(reply, nullptr);
     EXPECT_EQ(reply->fault, FaultCode::Busy);
     other.release();
@@ -182,7 +182,7 @@ TEST_F(GantryJog, OfAnotherClientIsRefused) {
 
 TEST_F(GantryJog, IsRefusedWhileItIsNotHomed) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
-    const Reply* reply = press(client, {{.axis = kY, .speed_mm_s = 10}});
+    const Reply* reply = press(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 10}});
     ASSERT_NE(reply, nullptr);
     EXPECT_EQ(reply->fault, FaultCode::NotHomed);
 }
@@ -193,7 +193,7 @@ TEST_F(GantryJog, InAPauseLeadsBackToIt) {
     program.blocks.insert(program.blocks.begin() + 1, Block{.action = Pause{}});
     ASSERT_EQ(run(program).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Paused, 20)) << describe();
-    ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 20, .distance_mm = 3}}));
+    ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 20, .distance_mm = 3}}));
     jog(1.5);
     EXPECT_EQ(phase(), MachinePhase::Paused) << describe();
     EXPECT_NEAR(axis_mm(kY), 23, 0.01);
@@ -202,7 +202,7 @@ TEST_F(GantryJog, InAPauseLeadsBackToIt) {
 
 TEST_F(GantryJog, IsEndedByAHold) {
     home();
-    ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 20}}));
+    ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 20}}));
     jog(0.5);
     EXPECT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
     jog(1);
@@ -213,7 +213,7 @@ TEST_F(BeltJog, MovesOneAxisByBothMotors) {
     home();
     const std::int64_t a = counts()[0];
     const std::int64_t b = counts()[1];
-    ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 20, .distance_mm = 8}}));
+    ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 20, .distance_mm = 8}}));
     jog(2);
     EXPECT_EQ(phase(), MachinePhase::Idle);
     EXPECT_NEAR(axis_mm(kX), 5, 0.01);
@@ -224,7 +224,8 @@ TEST_F(BeltJog, MovesOneAxisByBothMotors) {
 /// One axis reaches the end of its travel, the other goes on.
 TEST_F(BeltJog, OfTwoAxesGoesOnWithTheSecondAtTheEndOfTheFirst) {
     home();
-    ASSERT_TRUE(is_accepted(client, {{.axis = kX, .speed_mm_s = -20}, {.axis = kY, .speed_mm_s = 20}}));
+    ASSERT_TRUE(
+        is_accepted(client, {{.axis = AxisIndex{kX}, .speed_mm_s = -20}, {.axis = AxisIndex{kY}, .speed_mm_s = 20}}));
     jog(2.5);
     EXPECT_EQ(phase(), MachinePhase::Jogging) << describe();
     client.release();
@@ -236,11 +237,11 @@ TEST_F(BeltJog, OfTwoAxesGoesOnWithTheSecondAtTheEndOfTheFirst) {
 
 TEST_F(BeltJog, EndsAtTheEndOfTheTravelAndIsRefusedThere) {
     home();
-    ASSERT_TRUE(is_accepted(client, {{.axis = kX, .speed_mm_s = -50}}));
+    ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kX}, .speed_mm_s = -50}}));
     jog(1.5);
     EXPECT_EQ(phase(), MachinePhase::Idle) << "though the key is still held";
     EXPECT_NEAR(axis_mm(kX), 0, 0.02);
-    const Reply* reply = press(client, {{.axis = kX, .speed_mm_s = -50}});
+    const Reply* reply = press(client, {{.axis = AxisIndex{kX}, .speed_mm_s = -50}});
     ASSERT_NE(reply, nullptr);
     EXPECT_EQ(reply->fault, FaultCode::OutsideTravel);
 }
@@ -249,7 +250,7 @@ TEST_F(DeltaJog, MovesTheToolInALine) {
     home();
     const double x = axis_mm(0);
     const double z = axis_mm(2);
-    ASSERT_TRUE(is_accepted(client, {{.axis = 0, .speed_mm_s = 20, .distance_mm = 10}}));
+    ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{0}, .speed_mm_s = 20, .distance_mm = 10}}));
     jog(2);
     EXPECT_EQ(phase(), MachinePhase::Idle) << describe();
     EXPECT_NEAR(axis_mm(0), x + 10, 0.02);
@@ -264,7 +265,8 @@ TEST_F(DeltaJog, EndsAtTheEndOfTheTravelAlthoughItsKeyIsHeld) {
     vm.observe(log);
     vm.observe(epochs);
     for (const double speed : {30.0, -30.0, 7.3, -11.9}) {
-        ASSERT_TRUE(is_accepted(client, {{.axis = 0, .speed_mm_s = speed}, {.axis = 1, .speed_mm_s = speed / 3}}));
+        ASSERT_TRUE(is_accepted(
+            client, {{.axis = AxisIndex{0}, .speed_mm_s = speed}, {.axis = AxisIndex{1}, .speed_mm_s = speed / 3}}));
         jog(60 / std::abs(speed) * 8);
         const std::size_t steps = log.steps.size();
         const int begun = epochs.begun;
@@ -281,7 +283,7 @@ TEST_F(DeltaJog, EndsAtTheEndOfTheTravelAlthoughItsKeyIsHeld) {
 TEST_F(GantryJog, KeepsItsMotorsTogetherWhenAProcessStalls) {
     home();
     for (const std::size_t process : {1U, 2U, 3U}) {
-        ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 20}}));
+        ASSERT_TRUE(is_accepted(client, {{.axis = AxisIndex{kY}, .speed_mm_s = 20}}));
         jog(0.5);
         vm.schedule({.process = process, .at = vm.now(), .lasts = Ticks{60'000}});
         jog(0.6);

@@ -39,14 +39,14 @@ protected:
 
     Reply move_own(double x_mm, double from_mm) {
         vm.give_program(70, program_of({{x_mm, 5}}, 0, {from_mm, 5}));
-        return ask(CommandKind::MoveOwn, 0, 70);
+        return ask(CommandKind::MoveOwn, {}, 70);
     }
     void jog(double seconds) { pass(vm, {&client}, Ticks{std::llround(seconds * 1e6)}); }
     /// The place that people see, in mm.
     double shown_mm(std::size_t axis) const {
         std::vector<const AxisState*> states;
         for (const auto& state : vm.axis_states()) { states.push_back(&*state); }
-        const auto state = axis_state_of(axis, kinematics, states);
+        const auto state = axis_state_of(AxisIndex{axis}, kinematics, states);
         return to_mm(vm.machine().axes[axis], state->position.as_steps());
     }
     /// `beside_steps`: a jog by a distance begins where the motor rests.
@@ -107,10 +107,10 @@ TEST_F(Corrected, MovesByItselfToTheSamePlaces) {
 
 TEST_F(Corrected, IsJoggedByDistancesOfTheSlide) {
     home();
-    client.press({{.axis = kX, .speed_mm_s = 20, .distance_mm = 37}});
+    client.press({{.axis = AxisIndex{kX}, .speed_mm_s = 20, .distance_mm = 37}});
     jog(4);
     expect_motor_at(kShort, 42, 0, 0.5);
-    client.press({{.axis = kX, .speed_mm_s = -20, .distance_mm = 0.5}});
+    client.press({{.axis = AxisIndex{kX}, .speed_mm_s = -20, .distance_mm = 0.5}});
     jog(1);
     expect_motor_at(kShort, 41.5, 0, 1);
     EXPECT_NEAR(shown_mm(kX), 41.5, 2 * kHalfStep_mm);
@@ -118,12 +118,12 @@ TEST_F(Corrected, IsJoggedByDistancesOfTheSlide) {
 
 TEST_F(Corrected, IsJoggedToTheEndOfTheTravelOfTheSlide) {
     home();
-    client.press({{.axis = kX, .speed_mm_s = 100}});
+    client.press({{.axis = AxisIndex{kX}, .speed_mm_s = 100}});
     jog(4);
     expect_motor_at(kShort, 100);
     client.release();
     jog(0.2);
-    client.press({{.axis = kX, .speed_mm_s = 100}});
+    client.press({{.axis = AxisIndex{kX}, .speed_mm_s = 100}});
     jog(0.2);
     ASSERT_NE(client.reply(), nullptr);
     EXPECT_EQ(client.reply()->fault, FaultCode::OutsideTravel);
@@ -165,7 +165,7 @@ TEST_F(CorrectedGantry, IsSquareWhereverItsBridgeIs) {
     ASSERT_EQ(run(program_of({{20, 60}, {5, 31.5}}, 0, {5, 0})).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 30)) << describe();
     expect_bridge_at(31.5);
-    client.press({{.axis = kY, .speed_mm_s = 20, .distance_mm = 10}});
+    client.press({{.axis = AxisIndex{kY}, .speed_mm_s = 20, .distance_mm = 10}});
     jog(4);
     expect_bridge_at(41.5, 0.5);
     EXPECT_NEAR(shown_mm(kY), 41.5, 2 * kHalfStep_mm);

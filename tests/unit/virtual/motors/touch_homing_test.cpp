@@ -54,7 +54,7 @@ protected:
     /// Each motor is where it says, to two steps.
     void expect_true_places() const {
         for (std::size_t m = 0; m < vm.axis_states().size(); ++m) {
-            const double slide = vm.device(m).plant().position_mm() * motor_steps_per_mm(vm.machine(), m);
+            const double slide = vm.device(m).plant().position_mm() * motor_steps_per_mm(vm.machine(), MotorIndex{m});
             EXPECT_NEAR(static_cast<double>(counts()[m]), slide, 2.01) << "motor " << m;
         }
     }
@@ -110,7 +110,7 @@ TEST_F(HomingByTouch, AStopLeavesTheAxesUnhomed) {
 
 TEST_F(HomingByTouch, NamesAllAxesOfItsMotors) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2)) << describe();
-    EXPECT_NE(ask(CommandKind::Home, axis_bit(kX)).text.find("can only be homed together"), std::string::npos);
+    EXPECT_NE(ask(CommandKind::Home, {AxisIndex{kX}}).text.find("can only be homed together"), std::string::npos);
 }
 
 /// Each process stalls in turn, so long that the axes come to rest on their path, also while they brake behind a touch.

@@ -63,7 +63,7 @@ void give_late_devices(std::uint64_t seed, Scenario& scenario) {
     const bool has_clocks = !scenario.clocks.empty();
     if (!has_clocks) { scenario.clocks.resize(motor_count(machine)); }
     scenario.links.resize(motor_count(machine));
-    for (std::size_t i = 0; i < motor_count(machine); ++i) {
+    for (const MotorIndex i : motor_indices(motor_count(machine))) {
         if (draw.chance(0.5)) { continue; }
         scenario.links[i] = draw_link(draw, machine);
         device_of(machine, i) = {DeviceName::Kind::Mapped, "/dev/drawn"};

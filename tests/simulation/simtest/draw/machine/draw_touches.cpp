@@ -25,7 +25,7 @@ double room_mm(const AxisConfig& axis) {
 std::optional<InputConfig> draw_switch(Draw& draw, const MachineConfig& machine, const AxisConfig& axis) {
     const std::size_t motor = draw.index(motor_count(machine));
     const InputConfig input{.name = axis.name + "h",
-                            .motor = motor_name(machine, motor),
+                            .motor = motor_name(machine, MotorIndex{motor}),
                             .at_board = motor >= moving_motor_count(machine),
                             .channel = kHomeChannel,
                             .use = InputUse::Home,
