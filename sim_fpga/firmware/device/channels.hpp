@@ -47,9 +47,11 @@ public:
     Due next();
     /// Does what is due at this moment, with these levels of the input pins.
     void tend(std::uint32_t pins, const Moment& at);
-    /// A step that arrives at this count.
-    void arrive(std::int64_t tick, std::int64_t count) {
-        if (outputs_.arrive(tick, count)) { is_next_known_ = false; }
+    /// A step that arrives at this count. Returns true if it begins a pulse: its end is due.
+    bool arrive(std::int64_t tick, std::int64_t count) {
+        if (!outputs_.arrive(tick, count)) { return false; }
+        is_next_known_ = false;
+        return true;
     }
 
     const Setup& setup() const { return setup_; }

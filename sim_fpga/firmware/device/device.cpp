@@ -256,7 +256,8 @@ std::int64_t Device::next_due(std::int64_t until) {
     return due.is_past(until) ? due.tick : until;
 }
 
-/// Returns false to pause after this tick: for a limit switch, or to look at the inputs.
+/// Returns false to pause after this tick: for a limit switch, to look at the inputs, or because a pulse has begun and
+/// its end is due.
 bool Device::on_step(std::int64_t tick, int direction) {
     if (runs_into_limit(direction)) {
         into_limit_ = true;
@@ -265,9 +266,8 @@ bool Device::on_step(std::int64_t tick, int direction) {
     count_ += direction;
     port_.step(tick, direction);
     if (!capture_.keep(tick, direction)) { run_bits_ |= kStatusCaptureOverflow; }
-    channels_.arrive(tick, count_);
     stepped_ = direction;
-    return port_.pins() == pins_;
+    return !channels_.arrive(tick, count_) && port_.pins() == pins_;
 }
 
 /// Looks at the inputs and does what is due after this tick.

@@ -19,7 +19,7 @@ constexpr Abilities abilities_of(std::uint32_t power_up, std::size_t motor) {
             .analog_outputs = 0,
             .has_encoder = false,
             .can_enable = true,
-            .can_compare = false};
+            .can_compare = kOutputs[motor].count > 0};
 }
 
 }  // namespace

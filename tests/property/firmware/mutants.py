@@ -38,7 +38,7 @@ MUTANTS = [
     ("device/device.cpp", "channels_.begin_tail(moment());", ""),
     ("device/channels.cpp", "is_next_known_ && pins == pins_ && ", "is_next_known_ && "),
     ("device/channels.cpp", "    is_next_known_ = false;\n    const bool is_well", "    const bool is_well"),
-    ("device/channels.hpp", "{ is_next_known_ = false; }", "{}"),
+    ("device/channels.hpp", "return false; }\n        is_next_known_ = false;", "return false; }"),
     ("device/engine.cpp", "is_backward(last) == is_backward(gained)", "true"),
     ("device/output_queue.cpp", "list.changes[list.size - 1].at <= change.at", "list.changes[list.size - 1].at < change.at"),
     ("device/outputs.cpp", "tick + compare_ticks_", "tick + compare_ticks_ + 1"),

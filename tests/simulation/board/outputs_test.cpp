@@ -109,6 +109,47 @@ TEST_F(OutputBoard, ShowsTheLastOfChangesThatAreTooNear) {
     }
 }
 
+/// The levels of an output that is on for `length` from each step on that arrives at a place: at the count
+/// `place.next`, and then `place.every` steps further each time.
+std::vector<LevelChange> pulses_at(const std::vector<StepEdge>& steps, ComparePosition place, Ticks length) {
+    std::vector<LevelChange> changes;
+    std::int64_t count = 0;
+    for (const StepEdge& step : steps) {
+        count += step.direction;
+        if (place.pulses == 0 || count != place.next) { continue; }
+        place.next += place.every;
+        --place.pulses;
+        changes.push_back({step.tick, true});
+        changes.push_back({step.tick + length, false});
+    }
+    return changes;
+}
+
+/// One motor after the other, because changes of two outputs may be nearer than 8 ticks. Places are at least 32 ticks
+/// apart, and the last ones are never reached.
+TEST_F(OutputBoard, BeginsEachPulseInTheTickOfTheStepThatReachesItsPlace) {
+    constexpr ComparePosition kPlaces{.next = 3, .every = 2, .pulses = 100'000};
+    constexpr std::array kLengths{Ticks{8}, Ticks{12}, Ticks{24}};
+    for (std::size_t motor = 0; motor < kMotors; ++motor) {
+        const Course way = course(20 + motor, soon(), kFrames);
+        const DeviceSetup setup{.compare_outputs = 1, .compare_pulse = kLengths[motor]};
+        order(motor, way, setup);
+        OutputTrack outputs;
+        outputs.body.append({Ticks{1}, kPlaces});
+        ASSERT_TRUE(drivers[motor].apply(device::LoadOutputs{1, outputs}));
+        run_to_end(motor);
+        run(bench.now_us() + 5000);
+        expect_steps(way, motor);
+        const std::vector<LevelChange> pulses = pulses_at(way.steps, kPlaces, kLengths[motor]);
+        EXPECT_GT(pulses.size(), 60U);
+        EXPECT_TRUE(bench.levels(kPins[motor][0]) == pulses)
+            << "motor " << motor << ": " << bench.levels(kPins[motor][0]).size() << " changes, not " << pulses.size();
+        const auto status = drivers[motor].read();
+        ASSERT_TRUE(status);
+        EXPECT_EQ(status->pulses_left, kPlaces.pulses - pulses.size() / 2);
+    }
+}
+
 /// The output of motor 2 is on while its pin is low.
 TEST_F(OutputBoard, BringsOutputsToSafeLevelsWhenTheHostIsSilent) {
     constexpr Ticks kSilence{20'000};
