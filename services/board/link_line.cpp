@@ -7,11 +7,13 @@
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
-#include <termios.h>
 
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <utility>
+
+#include "services/board/serial_line.hpp"
 
 namespace lockstep {
 namespace {
@@ -23,27 +25,10 @@ std::unexpected<std::string> failure(const std::string& what, const std::string&
     return std::unexpected(what + ": " + std::strerror(errno) + "; " + remedy);
 }
 
-std::string remedy_of(int error) {
-    switch (error) {
-        case EACCES: return "let this user use it: adduser USER dialout, then log in again";
-        case EBUSY: return "end the other program that uses it";
-        default: return "check the board's cable";
-    }
-}
-
 std::expected<LinkLine, std::string> open_serial(const std::string& path) {
-    Descriptor line(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-    if (!line.is_open()) { return failure(path, remedy_of(errno)); }
-    termios mode{};
-    if (::tcgetattr(line.get(), &mode) != 0) { return failure(path, "name a serial line"); }
-    ::cfmakeraw(&mode);
-    mode.c_cflag |= CLOCAL | CREAD;
-    ::cfsetispeed(&mode, B1000000);
-    ::cfsetospeed(&mode, B1000000);
-    if (::tcsetattr(line.get(), TCSANOW, &mode) != 0) { return failure(path, "use an adapter that can do 1 MBd"); }
-    ::ioctl(line.get(), TIOCEXCL);  // two hosts would each get a part of the bytes
-    ::tcflush(line.get(), TCIOFLUSH);
-    return LinkLine(std::move(line));
+    auto line = open_serial_line(path, B1000000);
+    if (!line) { return std::unexpected(std::move(line.error())); }
+    return LinkLine(std::move(*line));
 }
 
 std::expected<LinkLine, std::string> open_tcp(const LinkName& name) {

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <memory>
 
+#include "clients/lockstep/live/board_boot.hpp"
 #include "clients/lockstep/live/board_flash.hpp"
 #include "clients/lockstep/live/boards_report.hpp"
 #include "clients/lockstep/live_options.hpp"
@@ -67,6 +68,7 @@ ExitCode bench(const BoardOptions& options) {
 struct FlashOptions {
     std::string file;
     std::string drive;
+    std::string line;
     bool json = false;
 };
 
@@ -75,12 +77,30 @@ std::string mounts() {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// The drive to copy to: the one that is named or mounted, or that of a running board, which then restarts.
+std::expected<std::filesystem::path, Failure> find_drive(const FlashOptions& options, Output& output) {
+    constexpr std::chrono::seconds kPatience{20};
+    if (!options.drive.empty()) { return options.drive; }
+    const auto before = pico_drives(mounts());
+    if (options.line.empty() && !before.empty()) { return only_drive(before); }
+    const auto line = options.line.empty() ? only_line(lockstep_lines()) : std::filesystem::path(options.line);
+    if (!line) { return line; }
+    if (const auto asked = ask_for_boot_mode(*line); !asked) { return std::unexpected(asked.error()); }
+    output.print(line->string() + ": the board restarts; waiting for its drive");
+    const auto new_drives = [&] {
+        auto drives = pico_drives(mounts());
+        std::erase_if(drives, [&](const auto& drive) { return std::ranges::find(before, drive) != before.end(); });
+        return drives;
+    };
+    return await_drive(*line, new_drives, kPatience);
+}
+
 ExitCode flash(const FlashOptions& options) {
     Output output(options.json);
     const std::filesystem::path file = options.file.empty() ? shipped_firmware() : std::filesystem::path(options.file);
     const auto firmware = read_firmware(file);
     if (!firmware) { return output.fail(firmware.error()); }
-    const auto drive = options.drive.empty() ? only_drive(pico_drives(mounts())) : std::filesystem::path(options.drive);
+    const auto drive = find_drive(options, output);
     if (!drive) { return output.fail(drive.error()); }
     if (const auto done = write_firmware(*firmware, *drive); !done) { return output.fail(done.error()); }
     proto::FlashReport report;
@@ -95,12 +115,16 @@ ExitCode flash(const FlashOptions& options) {
 
 void add_flash(Verb boards) {
     const auto options = std::make_shared<FlashOptions>();
-    const Verb verb = boards.add_verb("flash",
-                                      "copy the firmware to a Raspberry Pi Pico\n"
-                                      "Hold its BOOTSEL button while you plug it in. It shows a drive, RPI-RP2.");
+    const Verb verb =
+        boards.add_verb("flash",
+                        "copy the firmware to a Raspberry Pi Pico\n"
+                        "A new Pico: hold its BOOTSEL button while you plug it in. It shows a drive, RPI-RP2.\n"
+                        "A board that runs Lockstep's firmware is restarted, if its machine is down.");
     verb.add_option("file", options->file, "the firmware; default: the one that comes with Lockstep");
     verb.add_option("--drive", options->drive,
                     "the directory of the Pico's drive; default: the only one that is mounted");
+    verb.add_option("--line", options->line,
+                    "the serial line of the board that runs, such as /dev/ttyACM0; default: the only one");
     add_json(verb, options->json);
     verb.footer(footer("  lockstep board flash\n  lockstep board flash build-firmware/lockstep-board.uf2\n"));
     verb.action([options] { return flash(*options); });
