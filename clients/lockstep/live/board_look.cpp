@@ -6,6 +6,7 @@
 
 #include "services/runtime/clock.hpp"
 #include "sim_fpga/firmware/host/link_words.hpp"
+#include "sim_fpga/firmware/link/identify_word.hpp"
 
 namespace lockstep {
 namespace {
@@ -100,6 +101,13 @@ proto::LinkFiguresReport BoardLook::measure(std::chrono::duration<double> time) 
     figures.set_mean_ms(ms.sum / static_cast<double>(ms.count));
     figures.set_most_ms(ms.most);
     return figures;
+}
+
+/// The word is on its way long before this returns.
+void BoardLook::identify() {
+    constexpr auto kToArrive = 300ms;
+    windows_[0].store(firmware::kIdentifyWord, windows_[0].load(firmware::kIdentifyWord) + 1);
+    for (const auto until = monotonic_now() + kToArrive; monotonic_now() < until;) { step(); }
 }
 
 std::vector<RegisterWindow> BoardLook::motors() const {

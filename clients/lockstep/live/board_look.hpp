@@ -24,6 +24,8 @@ public:
     std::optional<std::string> await(std::chrono::milliseconds most);
     /// Watches the answers of the first motor for so long. await() must have returned nullopt.
     proto::LinkFiguresReport measure(std::chrono::duration<double> time);
+    /// Lets the board's light blink for ten seconds. await() must have returned nullopt.
+    void identify();
     /// The windows of the board's motors, in their order: those that it has shown.
     std::vector<RegisterWindow> motors() const;
     /// Whether lockstep-board holds the link.

@@ -142,6 +142,10 @@ proto::BoardReport measure_board(const MachineConfig& machine, const BoardLinkCo
     });
 }
 
+proto::BoardReport identify_board(const MachineConfig& machine, const BoardLinkConfig& board) {
+    return report_of_answer(machine, board, [](BoardLook& look, proto::BoardReport& /*report*/) { look.identify(); });
+}
+
 std::string why_not_opened(const BoardLinkConfig& board) {
     const LinkName& link = board.link;
     if (link.kind != LinkName::Kind::Serial || ::access(link.place.c_str(), R_OK | W_OK) == 0) { return ""; }

@@ -25,6 +25,8 @@ proto::BoardReport check_board(const MachineConfig& machine, const BoardLinkConf
 /// Waits likewise, and then watches the board's answers for so long.
 proto::BoardReport measure_board(const MachineConfig& machine, const BoardLinkConfig& board,
                                  std::chrono::duration<double> time);
+/// Waits likewise, and then lets the board's light blink.
+proto::BoardReport identify_board(const MachineConfig& machine, const BoardLinkConfig& board);
 
 /// Why this user cannot open the board's line; empty if it can, and for TCP.
 std::string why_not_opened(const BoardLinkConfig& board);

@@ -24,9 +24,14 @@ struct BoardOptions : LiveOptions {
     double seconds = 3;
 };
 
+struct ReportOptions {
+    bool with_adapters = false;
+    const char* if_well = nullptr;  // a line behind a board that is well
+};
+
 /// `look`: makes the report of a board.
 template <typename Look>
-ExitCode report_boards(const BoardOptions& options, Look look, bool with_adapters = false) {
+ExitCode report_boards(const BoardOptions& options, Look look, const ReportOptions& more = {}) {
     Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return output.fail(machine.error()); }
@@ -36,8 +41,9 @@ ExitCode report_boards(const BoardOptions& options, Look look, bool with_adapter
     for (const BoardLinkConfig& board : *boards) {
         const proto::BoardReport& one = *report.add_boards() = look(machine->config, board);
         for (const std::string& line : board_lines(one)) { output.print(line); }
+        if (more.if_well != nullptr && is_well(one)) { output.print(more.if_well); }
     }
-    if (with_adapters) {
+    if (more.with_adapters) {
         for (const std::string& adapter : free_adapters(machine->config)) {
             report.add_free_adapters(adapter);
             output.print("no board of this machine: " + adapter);
@@ -53,7 +59,12 @@ ExitCode list(const BoardOptions& options) {
         if (const std::string lack = why_not_opened(board); !lack.empty()) { report.set_lack(lack); }
         return report;
     };
-    return report_boards(options, look, true);
+    return report_boards(options, look, {.with_adapters = true});
+}
+
+ExitCode identify(const BoardOptions& options) {
+    return report_boards(options, identify_board,
+                         {.if_well = "  its light flashes four times a second, for ten seconds"});
 }
 
 ExitCode check(const BoardOptions& options) { return report_boards(options, check_board); }
@@ -154,6 +165,7 @@ void add_board(Verb command) {
              list);
     add_part(boards, "check", "check that each board answers, and that its devices suit the motors that use them",
              check);
+    add_part(boards, "identify", "let the light of each board flash, to find it among others", identify);
     const auto [verb, options] = add_part(boards, "bench", "measure how long the answers of each board take", bench);
     verb.add_option("--seconds", options->seconds, "how long to measure").in_range(0.1, 3600.0).with_default();
     add_flash(boards);

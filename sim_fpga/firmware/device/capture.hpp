@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "sim_fpga/firmware/device/step_block.hpp"
 #include "sim_fpga/firmware/device/words.hpp"
 
 namespace lockstep::firmware {
@@ -11,19 +12,27 @@ class Capture {
 public:
     explicit Capture(Words& words) : words_(words) {}
 
-    /// Stores a step. Returns false if there is no room. The host sees it after publish().
-    bool keep(std::int64_t tick, int direction) {
-        const std::uint64_t word = registers::kCaptureRingStepTick.word(static_cast<std::uint64_t>(tick)) |
-                                   (direction > 0 ? registers::kCaptureRingStepForward : 0);
-        sum_ += word;
-        sums_ += sum_;
-        if (head_ - tail_ >= kCaptureRoom) { tail_ = words_.load(registers::kCaptureTail); }
-        if (head_ - tail_ >= kCaptureRoom) {
-            ++lost_;
-            return false;
+    /// Stores the first so many steps of a block. Returns false if there is no room for one. The host sees them after
+    /// publish().
+    bool keep(const StepBlock& block, std::uint32_t steps) {
+        if (room() < steps) { tail_ = words_.load(registers::kCaptureTail); }
+        const std::uint32_t kept = room() < steps ? room() : steps;
+        const std::uint64_t first = registers::kCaptureRingStepTick.word(static_cast<std::uint64_t>(block.begin)) |
+                                    (block.direction > 0 ? registers::kCaptureRingStepForward : 0);
+        std::uint64_t sum = sum_;
+        std::uint64_t sums = sums_;
+        auto entry = static_cast<std::uint32_t>(head_);
+        for (std::uint32_t n = 0; n < steps; ++n) {
+            const std::uint64_t word = first + registers::kCaptureRingStepTick.word(block.after[n]);
+            sum += word;
+            sums += sum;
+            if (n < kept) { words_.store_within(registers::kCaptureRing, kRing.entry(entry++), word); }
         }
-        words_.store_within(registers::kCaptureRing, kRing.entry(head_++), word);
-        return true;
+        sum_ = sum;
+        sums_ = sums;
+        head_ += kept;
+        lost_ += steps - kept;
+        return kept == steps;
     }
     void publish() {
         words_.store(registers::kCaptureHead, head_);
@@ -33,6 +42,12 @@ public:
     }
 
 private:
+    /// None if the host's tail is impossible.
+    std::uint32_t room() const {
+        const std::uint64_t used = head_ - tail_;
+        return used < kCaptureRoom ? kCaptureRoom - static_cast<std::uint32_t>(used) : 0;
+    }
+
     static constexpr Ring kRing{registers::kCaptureRing, kCaptureRoom, registers::kCaptureRingEntryBytes};
 
     Words& words_;

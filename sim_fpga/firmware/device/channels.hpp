@@ -47,11 +47,14 @@ public:
     Due next();
     /// Does what is due at this moment, with these levels of the input pins.
     void tend(std::uint32_t pins, const Moment& at);
-    /// A step that arrives at this count. Returns true if it begins a pulse: its end is due.
-    bool arrive(std::int64_t tick, std::int64_t count) {
-        if (!outputs_.arrive(tick, count)) { return false; }
+    /// How many steps of a block from this count on arrive at the next place. 0: it is not among the first so many.
+    std::uint32_t steps_to_place(const StepBlock& block, std::uint32_t steps, std::int64_t count) const {
+        return outputs_.has_places() ? outputs_.steps_to_place(block, steps, count) : 0;
+    }
+    /// A step has arrived at the next place. The end of its pulse is due.
+    void arrive(std::int64_t tick, std::int64_t count) {
         is_next_known_ = false;
-        return true;
+        outputs_.arrive(tick, count);
     }
 
     const Setup& setup() const { return setup_; }

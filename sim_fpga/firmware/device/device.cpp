@@ -64,7 +64,7 @@ void Device::execute(std::int64_t until) {
         if (engine_.is_idle()) {
             engine_.wait(due);
         } else {
-            engine_.run(due, [this](std::int64_t tick, int direction) { return on_step(tick, direction); });
+            engine_.run(due, [this](const StepBlock& block) { return take_steps(block); });
         }
         tend();
     }
@@ -256,18 +256,19 @@ std::int64_t Device::next_due(std::int64_t until) {
     return due.is_past(until) ? due.tick : until;
 }
 
-/// Returns false to pause after this tick: for a limit switch, to look at the inputs, or because a pulse has begun and
-/// its end is due.
-bool Device::on_step(std::int64_t tick, int direction) {
-    if (runs_into_limit(direction)) {
+/// Pauses behind a step that begins a pulse, whose end is due, or that has changed the inputs, and at a limit switch.
+TakenSteps Device::take_steps(const StepBlock& block) {
+    if (runs_into_limit(block.direction)) {
         into_limit_ = true;
-        return false;
+        return {1, true};
     }
-    count_ += direction;
-    port_.step(tick, direction);
-    if (!capture_.keep(tick, direction)) { run_bits_ |= kStatusCaptureOverflow; }
-    stepped_ = direction;
-    return !channels_.arrive(tick, count_) && port_.pins() == pins_;
+    const std::uint32_t to_place = channels_.steps_to_place(block, block.size, count_);
+    const std::uint32_t made = port_.step(block, to_place > 0 ? to_place : block.size);
+    if (!capture_.keep(block, made)) { run_bits_ |= kStatusCaptureOverflow; }
+    count_ += block.direction < 0 ? -std::int64_t{made} : std::int64_t{made};
+    stepped_ = block.direction;
+    if (made == to_place) { channels_.arrive(block.tick(made - 1), count_); }
+    return {made, made < block.size || made == to_place || port_.pins() != pins_};
 }
 
 /// Looks at the inputs and does what is due after this tick.

@@ -70,7 +70,7 @@ private:
     const Setup& setup() const { return channels_.setup(); }
 
     std::int64_t next_due(std::int64_t until);
-    bool on_step(std::int64_t tick, int direction);
+    TakenSteps take_steps(const StepBlock& block);
     void tend();
     std::uint64_t reason_to_cease() const;
     Moment moment() const;
@@ -94,7 +94,7 @@ private:
     std::int64_t count_ = 0;
     std::int64_t trigger_count_ = 0;
     std::uint32_t pins_ = 0;   // as the channels saw them last
-    int stepped_ = 0;          // the direction of a step after which pulses paused; 0: none
+    int stepped_ = 0;          // the direction of the last step since the inputs were looked at; 0: none
     bool into_limit_ = false;  // a pulse was suppressed at a limit switch
 
     Setup prepared_;

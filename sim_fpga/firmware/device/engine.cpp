@@ -6,7 +6,7 @@
 namespace lockstep::firmware {
 namespace {
 
-bool is_backward(std::uint64_t velocity) { return velocity >> 63 != 0; }
+bool is_negative(std::uint64_t velocity) { return velocity >> 63 != 0; }
 
 /// The lowest bits. ticks: 1 to 32.
 std::uint32_t all_of(std::uint32_t ticks) { return ~std::uint32_t{0} >> (kBlockTicks - ticks); }
@@ -22,32 +22,39 @@ bool is_executable(const Piece& piece) {
     if (piece.ticks < kFewTicks && piece.acceleration + kSmall < 2 * kSmall) {
         const std::uint64_t gained = piece.acceleration * static_cast<std::uint64_t>(piece.ticks);
         const std::uint64_t last = piece.velocity + gained;
-        return is_backward(piece.velocity) != is_backward(gained) || is_backward(last) == is_backward(gained);
+        return is_negative(piece.velocity) != is_negative(gained) || is_negative(last) == is_negative(gained);
     }
     const Wide gained = product_of(static_cast<std::int64_t>(piece.acceleration), piece.ticks);
     return is_narrow(widened(static_cast<std::int64_t>(piece.velocity)) + gained);
 }
 
-/// A step forward is a carry of the phase. A step backward is a borrow, which is a sum without a carry.
-Engine::Block Engine::execute(std::uint32_t ticks) {
+/// Returns the ticks with a step, the last one in bit 0. A step forward is a carry of the phase. A step backward is a
+/// borrow, which is a sum without a carry. If the velocity changes its sign, it is the next tick alone that is
+/// executed: `ticks` becomes 1.
+std::uint32_t Engine::execute(std::uint32_t& ticks) {
     const Accumulators before = axis_;
-    const bool begins_backward = is_backward(axis_.velocity + axis_.acceleration);
-    const std::uint32_t carries = lockstep_add_ticks(&axis_, ticks);
-    if (begins_backward != is_backward(axis_.velocity)) {
+    const bool begins_backward = (axis_.velocity + axis_.acceleration) >> 63 != 0;
+    std::uint32_t carries = lockstep_add_ticks(&axis_, ticks);
+    if (begins_backward != is_backward()) {
         axis_ = before;
-        return execute_across_rest(ticks);
+        ticks = 1;
+        carries = lockstep_add_ticks(&axis_, ticks);
     }
-    const std::uint32_t backward = begins_backward ? all_of(ticks) : 0;
-    return {.steps = carries ^ backward, .backward = backward};
+    return begins_backward ? carries ^ all_of(ticks) : carries;
 }
 
-/// The velocity changes its sign, so each tick has its own.
-Engine::Block Engine::execute_across_rest(std::uint32_t ticks) {
-    Block block;
-    for (; ticks > 0; --ticks) {
-        const std::uint32_t carry = lockstep_add_ticks(&axis_, 1);
-        const std::uint32_t backward = is_backward(axis_.velocity) ? 1 : 0;
-        block = {.steps = block.steps << 1 | (carry ^ backward), .backward = block.backward << 1 | backward};
+/// Steps are rare, so that ticks without one are skipped eight at a time.
+StepBlock Engine::block_of(std::uint32_t steps, std::uint32_t ticks) const {
+    constexpr std::uint32_t kSkipped = 8;
+    StepBlock block;
+    block.begin = now_;
+    block.direction = is_backward() ? -1 : 1;
+    block.size = 0;
+    steps <<= kBlockTicks - ticks;  // the next tick is the highest bit
+    for (std::uint32_t n = 1; steps != 0; ++n, steps <<= 1) {
+        for (; steps >> (kBlockTicks - kSkipped) == 0; n += kSkipped) { steps <<= kSkipped; }
+        for (; steps >> (kBlockTicks - 1) == 0; ++n) { steps <<= 1; }
+        block.after[block.size++] = static_cast<std::uint8_t>(n);
     }
     return block;
 }

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "sim_fpga/firmware/device/step_block.hpp"
+
 namespace lockstep::firmware {
 
 /// Motion with constant acceleration. Velocity and acceleration are two's complement, as in the register map.
@@ -33,9 +35,6 @@ struct Accumulators {
     std::uint64_t acceleration = 0;
 };
 
-/// The most ticks in a block.
-inline constexpr std::uint32_t kBlockTicks = 32;
-
 /// Executes `ticks` of velocity += acceleration, phase += velocity. Returns the carries of the phase, the last tick's
 /// in bit 0. In C++ on a host, in assembler on a board.
 extern "C" std::uint32_t lockstep_add_ticks(Accumulators* axis, std::uint32_t ticks);
@@ -58,12 +57,12 @@ public:
         axis_.phase = at.phase;
     }
 
-    /// Executes ticks until `until` or the end of the piece. Calls on_step(tick, direction) for each step. It returns
-    /// false to stop the engine right after this tick.
-    template <typename OnStep>
-    void run(std::int64_t until, OnStep&& on_step) {
+    /// Executes ticks until `until`, the end of the piece or a pause. Calls take(block), which returns TakenSteps, for
+    /// steps in order. Steps behind a pause are made by the next run.
+    template <typename Take>
+    void run(std::int64_t until, Take&& take) {
         for (bool is_going = true; is_going && now_ < until && !is_idle();) {
-            is_going = run_block(block_until(until), on_step);
+            is_going = run_block(block_until(until), take);
         }
     }
 
@@ -74,32 +73,23 @@ public:
     std::uint64_t velocity() const { return is_idle() ? 0 : axis_.velocity; }
 
 private:
-    /// The last tick of a block is bit 0 of both.
-    struct Block {
-        std::uint32_t steps = 0;
-        std::uint32_t backward = 0;
-    };
-
     std::uint32_t block_until(std::int64_t until) const {
         const std::int64_t ticks = (until < end_ ? until : end_) - now_;
         return ticks < kBlockTicks ? static_cast<std::uint32_t>(ticks) : kBlockTicks;
     }
-    Block execute(std::uint32_t ticks);
-    Block execute_across_rest(std::uint32_t ticks);
+    bool is_backward() const { return axis_.velocity >> 63 != 0; }
+    std::uint32_t execute(std::uint32_t& ticks);
+    StepBlock block_of(std::uint32_t steps, std::uint32_t ticks) const;
 
-    template <typename OnStep>
-    bool run_block(std::uint32_t ticks, OnStep&& on_step) {
+    template <typename Take>
+    bool run_block(std::uint32_t ticks, Take&& take) {
         const Accumulators before = axis_;
-        const Block block = execute(ticks);
-        const std::uint32_t unused = kBlockTicks - ticks;
-        std::uint32_t steps = block.steps << unused;  // the next tick is the highest bit
-        for (std::uint32_t n = 1; steps != 0; ++n, steps <<= 1) {
-            for (; steps >> (kBlockTicks - 8) == 0; n += 8) { steps <<= 8; }
-            for (; steps >> (kBlockTicks - 1) == 0; ++n) { steps <<= 1; }
-            const bool is_backward = (block.backward >> (ticks - n) & 1) != 0;
-            count_ += is_backward ? -1 : 1;
-            if (!on_step(now_ + n, is_backward ? -1 : 1)) {
-                stop_after(n, ticks, before);
+        if (const std::uint32_t steps = execute(ticks); steps != 0) {
+            const StepBlock block = block_of(steps, ticks);
+            const TakenSteps taken = take(block);
+            count_ += block.direction < 0 ? -std::int64_t{taken.steps} : std::int64_t{taken.steps};
+            if (taken.pauses) {
+                stop_after(block.after[taken.steps - 1], ticks, before);
                 return false;
             }
         }

@@ -1,22 +1,6 @@
 #include "sim_fpga/firmware/device/outputs.hpp"
 
-#include "sim_fpga/firmware/device/wide.hpp"
-
 namespace lockstep::firmware {
-namespace {
-
-std::int64_t within_scale(std::int64_t value) {
-    if (value < 0) { return 0; }
-    return value < kFullScale ? value : kFullScale;
-}
-
-}  // namespace
-
-std::int64_t Outputs::Ramp::at(std::int64_t now) const {
-    const Wide sum = widened(value) + product_of(slope, now - since);
-    if (is_negative(sum)) { return 0; }
-    return is_narrow(sum) ? within_scale(static_cast<std::int64_t>(sum.low)) : kFullScale;
-}
 
 void Outputs::set(const Setup& setup, std::int64_t now) {
     compare_outputs_ = setup.compare_outputs;
@@ -55,14 +39,17 @@ void Outputs::tend(std::int64_t now, std::int64_t count) {
     for (; left_ > 0 && start_ + changes_->at <= now; ++changes_, --left_) { change(*changes_, now, count); }
 }
 
-bool Outputs::arrive(std::int64_t tick, std::int64_t count) {
-    if (places_.pulses == 0 || count != places_.next) { return false; }
+std::uint32_t Outputs::steps_to_place(const StepBlock& block, std::uint32_t steps, std::int64_t count) const {
+    const std::int64_t distance = block.direction < 0 ? count - places_.next : places_.next - count;
+    return 0 < distance && distance <= steps ? static_cast<std::uint32_t>(distance) : 0;
+}
+
+void Outputs::arrive(std::int64_t tick, std::int64_t count) {
     pulse_ends_ = Due::at(tick + compare_ticks_);
     show(tick);
     places_.next += places_.every;
     pulses_left_ = --places_.pulses;
     if (pulses_left_ == 0) { events_.put({.tick = tick, .kind = EventKind::CompareEnds, .value = count}); }
-    return true;
 }
 
 void Outputs::change(const OutputChange& change, std::int64_t now, std::int64_t count) {
@@ -86,6 +73,7 @@ void Outputs::change_digital(std::uint16_t levels, std::uint16_t mask, std::int6
 
 void Outputs::change_analog(std::size_t channel, std::int64_t value, std::int64_t slope, std::int64_t now) {
     ramps_[channel] = {.value = within_scale(value), .slope = slope, .since = now};
+    port_.show_analog(channel, ramps_[channel]);
     events_.put({.tick = now,
                  .kind = EventKind::Analog,
                  .channel = channel,

@@ -8,12 +8,10 @@
 #include "sim_fpga/firmware/device/events.hpp"
 #include "sim_fpga/firmware/device/output_queue.hpp"
 #include "sim_fpga/firmware/device/port.hpp"
+#include "sim_fpga/firmware/device/ramp.hpp"
 #include "sim_fpga/firmware/device/setup.hpp"
 
 namespace lockstep::firmware {
-
-/// Full scale of an analog output. Its value is a whole number of 2^-62 of this.
-inline constexpr std::int64_t kFullScale = std::int64_t{1} << 62;
 
 class Outputs {
 public:
@@ -32,8 +30,12 @@ public:
     Due next() const;
     /// Does what is due after tick `now`, at this count.
     void tend(std::int64_t now, std::int64_t count);
-    /// A step that arrives at this count. Returns true if it begins a pulse.
-    bool arrive(std::int64_t tick, std::int64_t count);
+    /// Whether pulses are left to make.
+    bool has_places() const { return places_.pulses != 0; }
+    /// How many steps of a block from this count on arrive at the next place. 0: it is not among the first so many.
+    std::uint32_t steps_to_place(const StepBlock& block, std::uint32_t steps, std::int64_t count) const;
+    /// A step has arrived at the next place, at this count: a pulse begins.
+    void arrive(std::int64_t tick, std::int64_t count);
 
     void change_digital(std::uint16_t levels, std::uint16_t mask, std::int64_t now, std::int64_t count);
     void change_analog(std::size_t channel, std::int64_t value, std::int64_t slope, std::int64_t now);
@@ -47,13 +49,6 @@ public:
     std::int64_t analog(std::size_t channel, std::int64_t now) const { return ramps_[channel].at(now); }
 
 private:
-    /// A value that changes by its slope with each tick, and stays at 0 or full scale when it gets there.
-    struct Ramp {
-        std::int64_t value = 0;
-        std::int64_t slope = 0;
-        std::int64_t since = 0;
-        std::int64_t at(std::int64_t now) const;
-    };
     /// Pulses at places that are left to make.
     struct Places {
         std::int64_t next = 0;

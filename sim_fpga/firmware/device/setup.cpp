@@ -46,6 +46,7 @@ void load_outputs(const Words& words, Setup& setup) {
     setup.compare_ticks = ticks_of(words.load(kCompareTicks));
     for (std::size_t n = 0; n < kMostAnalog; ++n) {
         const std::uint64_t period = words.load(kAnalogTable + n * kAnalogTableEntryBytes + kAnalogTablePwmPeriod);
+        setup.pwm_period[n] = period;
         setup.longest_pwm_period = greater(setup.longest_pwm_period, period);
         setup.pwm_channels |= static_cast<std::uint16_t>(period > 0 ? 1U << n : 0U);
     }

@@ -24,6 +24,7 @@ struct Setup {
     std::uint64_t direction_setup = 0;
     std::uint64_t direction_hold = 0;
     std::uint64_t longest_pwm_period = 0;
+    std::uint64_t pwm_period[kMostAnalog]{};
     std::uint64_t inverted = 0;
     std::uint16_t pwm_channels = 0;
     std::uint32_t debounced = 0;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "sim_fpga/firmware/host/link_words.hpp"
+#include "sim_fpga/firmware/link/identify_word.hpp"
 
 namespace lockstep::firmware {
 
@@ -21,6 +22,7 @@ void MotorOrders::begin() {
     sent_.assign(kWords, 0);
     segments_ = whole_ = changes_ = sequence_ = magic_ = 0;
     is_new_ = false;
+    identify_ = window_.load(kIdentifyWord);
 }
 
 /// Orders come first: a veto does not wait behind frames. A number that makes other words take effect is read before
@@ -30,6 +32,7 @@ void MotorOrders::fill(unsigned motor, ItemWriter& items) {
     const std::uint64_t frames = window_.load(kSegmentHead);
     const std::uint64_t outputs = window_.load(kOutputHead);
     if (!fill_orders(motor, items)) { return; }
+    fill_identify(motor, items);
     fill_setup(motor, items);
     fill_ring({kOutputRing, kOutputRingEntryBytes, kOutputEntries}, motor, outputs, changes_, items);
     if (changes_ != outputs || !put_changed(motor, kOutputHead, outputs, items)) { return; }
@@ -55,6 +58,13 @@ bool MotorOrders::fill_orders(unsigned motor, ItemWriter& items) {
     put_changed(motor, kArmed, armed, items);
     put_changed(motor, kVeto, veto, items);
     return put_changed(motor, kRunRequest, run, items);
+}
+
+void MotorOrders::fill_identify(unsigned motor, ItemWriter& items) {
+    const std::uint64_t asked = window_.load(kIdentifyWord);
+    if (asked == identify_ || !items.has_room(1)) { return; }
+    items.put(motor, kIdentifyWord, asked);
+    identify_ = asked;
 }
 
 void MotorOrders::fill_setup(unsigned motor, ItemWriter& items) {

@@ -33,6 +33,7 @@ private:
 
     /// Returns false if there was no room, or a run began meanwhile: then nothing may follow.
     bool fill_orders(unsigned motor, ItemWriter& items);
+    void fill_identify(unsigned motor, ItemWriter& items);
     void fill_setup(unsigned motor, ItemWriter& items);
     void fill_ring(const Ring& ring, unsigned motor, std::uint64_t head, std::uint64_t& sent, ItemWriter& items);
     std::uint64_t end_of_whole_frames(const Ring& segments, std::uint64_t frames) const;
@@ -46,6 +47,7 @@ private:
     std::uint64_t whole_ = 0;     // those of them whose frames were sent whole
     std::uint64_t changes_ = 0;   // entries of the output ring that were sent
     std::uint64_t sequence_ = 0;
+    std::uint64_t identify_ = 0;  // the number that was sent last
     LookTime look_{};
     bool is_new_ = false;      // registers were taken that are not shown
     std::uint64_t magic_ = 0;  // as the board has sent it

@@ -1,5 +1,7 @@
 #include "sim_fpga/firmware/link/board_words.hpp"
 
+#include "sim_fpga/firmware/link/identify_word.hpp"
+
 namespace lockstep::firmware {
 
 using namespace registers;
@@ -106,6 +108,7 @@ void BoardWords::fill(ItemWriter& items, std::uint32_t heard) {
 
 /// Entries of rings are not read before their head has moved, and words of a setup not before prepare_orders().
 void BoardWords::take(unsigned motor, std::size_t offset, std::uint64_t value) {
+    if (offset == kIdentifyWord) { ++light_requests_; }
     if (motor >= motors_ || !Words::is_of_host(offset)) { return; }
     if (offset >= kRunRequest && offset < kDirectRequest) {
         order_[orders_++] = {motor, offset, value};

@@ -79,6 +79,8 @@ public:
     void take(unsigned motor, std::size_t offset, std::uint64_t value) override;
     void open() override { orders_ = 0; }
     void close() override;
+    /// How often a host has asked for the board's light.
+    std::uint32_t light_requests() const { return light_requests_; }
 
 private:
     Words* const* words_;
@@ -96,6 +98,7 @@ private:
     std::size_t orders_ = 0;
     MotorLook looks_[kMostMotors];
     std::size_t turn_ = 0;
+    std::uint32_t light_requests_ = 0;
 };
 
 }  // namespace lockstep::firmware

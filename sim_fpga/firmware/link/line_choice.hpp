@@ -19,12 +19,14 @@ public:
     /// A frame with the right CRC has come by this line. Changed: another line had the host.
     Verdict take(std::size_t line, std::uint32_t now_us) {
         const bool is_other = line != line_;
-        if (is_other && has_host_ && now_us - spoke_us_ < kPatience_us) { return Verdict::Ignored; }
+        if (is_other && has_host(now_us)) { return Verdict::Ignored; }
         line_ = line;
         has_host_ = true;
         spoke_us_ = now_us;
         return is_other ? Verdict::Changed : Verdict::Same;
     }
+    /// Whether a host has spoken within its patience.
+    bool has_host(std::uint32_t now_us) const { return has_host_ && now_us - spoke_us_ < kPatience_us; }
     /// The line that has the host. Before any frame has come: the first line.
     std::size_t line() const { return line_; }
 

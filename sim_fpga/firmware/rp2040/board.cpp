@@ -13,10 +13,10 @@ constexpr Abilities abilities_of(std::uint32_t power_up, std::size_t motor) {
             .pin_ticks = kMostTicksAhead + kMostDelayTicks,
             .time_unit_ps = 1000,
             .longest_time = kMostTime_ns,
-            .longest_pwm_period = 0,
+            .longest_pwm_period = motor < kPwmOutputs ? kMostPwmTicks * 1000 : 0,
             .inputs = 3,
             .digital_outputs = kOutputs[motor].count,
-            .analog_outputs = 0,
+            .analog_outputs = motor < kPwmOutputs ? 1U : 0U,
             .has_encoder = false,
             .can_enable = true,
             .can_compare = kOutputs[motor].count > 0};
@@ -25,7 +25,7 @@ constexpr Abilities abilities_of(std::uint32_t power_up, std::size_t motor) {
 }  // namespace
 
 Board::Board(std::uint32_t power_up, Line& first, Line& second)
-    : pins_{{0, outputs_}, {1, outputs_}, {2, outputs_}},
+    : pins_{{0, outputs_, pwm_}, {1, outputs_, pwm_}, {2, outputs_, pwm_}},
       devices_{{pins_[0], abilities_of(power_up, 0), 0},
                {pins_[1], abilities_of(power_up, 1), 0},
                {pins_[2], abilities_of(power_up, 2), 0}},
@@ -47,11 +47,13 @@ void Board::render_block() {
     }
     for (const MotorPins& pins : pins_) { pins.queue_block(); }
     outputs_.queue_block(now_);
+    pwm_.queue_block(now_);
     finish_block();
     now_ += kRenderTicks;
 }
 
 void Board::lose_ticks() {
+    has_lost_ticks_ = true;
     for (Device& device : devices_) { device.lose_ticks(); }
 }
 
@@ -72,6 +74,18 @@ bool Board::serve_link() {
     }
     transmission_.advance(*lines_[choice_.line()]);
     return is_busy;
+}
+
+void Board::show_light() {
+    const std::uint32_t now_us = chip::at(chip::timer::kNow);
+    if (board_words_.light_requests() != light_requests_) {
+        light_requests_ = board_words_.light_requests();
+        light_.identify(now_us);
+    }
+    const auto state = has_lost_ticks_            ? BoardLight::State::LostTicks
+                       : choice_.has_host(now_us) ? BoardLight::State::HasHost
+                                                  : BoardLight::State::Alone;
+    chip::at(light_.is_on(state, now_us) ? chip::sio::kSet : chip::sio::kClear) = chip::bit(kLightPin);
 }
 
 bool Board::receive(std::size_t line, std::uint32_t now_us) {
@@ -121,6 +135,7 @@ void Board::take_orders() {
         const Setup& setup = devices_[motor].channels().setup();
         pins_[motor].invert(setup.inverted);
         invert_outputs(motor, setup.outputs_inverted);
+        if (motor < kPwmOutputs) { pwm_.set_period(motor, setup.pwm_period[0]); }
         pins_[motor].time(static_cast<std::uint32_t>(setup.step_width),
                           static_cast<std::uint32_t>(setup.direction_setup));
     }

@@ -6,10 +6,12 @@
 #include <cstdint>
 
 #include "sim_fpga/firmware/device/device.hpp"
+#include "sim_fpga/firmware/link/board_light.hpp"
 #include "sim_fpga/firmware/link/board_words.hpp"
 #include "sim_fpga/firmware/link/line.hpp"
 #include "sim_fpga/firmware/link/line_choice.hpp"
 #include "sim_fpga/firmware/rp2040/output_pins.hpp"
+#include "sim_fpga/firmware/rp2040/pwm_pins.hpp"
 #include "sim_fpga/firmware/rp2040/step_pins.hpp"
 
 namespace lockstep::firmware {
@@ -29,6 +31,8 @@ public:
     bool is_any_enabled() const;
     /// Takes bytes of the host and sends frames to it. Returns false if there was nothing to do.
     bool serve_link();
+    /// Switches the board's light as its state asks.
+    void show_light();
 
     void enter() override;
     void leave() override;
@@ -44,6 +48,7 @@ private:
     static constexpr std::size_t kLines = 2;
 
     OutputPins outputs_;
+    PwmPins pwm_;
     MotorPins pins_[kMotors];
     Device devices_[kMotors];
     Words* words_[kMotors];
@@ -54,6 +59,9 @@ private:
     FrameReader readers_[kLines];
     LineChoice choice_;
     Transmission transmission_;
+    BoardLight light_;
+    std::uint32_t light_requests_ = 0;  // that were obeyed
+    bool has_lost_ticks_ = false;
     std::int64_t now_ = 0;        // the last tick that was executed
     std::uint32_t began_us_ = 0;  // when the pins began the first tick, by the chip's timer
 };

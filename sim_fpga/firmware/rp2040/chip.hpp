@@ -24,13 +24,13 @@ inline constexpr std::uint32_t kPeripheralControl = 0x4000'8048, kUsbControl = 0
 }  // namespace clocks
 namespace resets {
 inline constexpr std::uint32_t kReset = 0x4000'C000, kDone = 0x4000'C008;
-inline constexpr std::uint32_t kIoBank = bit(5), kPads = bit(8), kPio0 = bit(10), kPllSys = bit(12), kPllUsb = bit(13),
-                               kTimer = bit(21), kUart0 = bit(22), kUsb = bit(24);
+inline constexpr std::uint32_t kIoBank = bit(5), kPads = bit(8), kPio0 = bit(10), kPio1 = bit(11), kPllSys = bit(12),
+                               kPllUsb = bit(13), kTimer = bit(21), kUart0 = bit(22), kUsb = bit(24);
 }  // namespace resets
 namespace io {
 /// The control register of a pin.
 constexpr std::uint32_t control(unsigned pin) { return 0x4001'4004 + 8 * pin; }
-inline constexpr std::uint32_t kUart = 2, kSio = 5, kPio0 = 6;
+inline constexpr std::uint32_t kUart = 2, kSio = 5, kPio0 = 6, kPio1 = 7;
 inline constexpr std::uint32_t kInverted = bit(8);
 }  // namespace io
 namespace pads {
@@ -63,6 +63,10 @@ inline constexpr std::uint32_t kTick = 0x4005'802C;
 namespace ring_oscillator {
 inline constexpr std::uint32_t kRandomBit = 0x4006'001C;
 }  // namespace ring_oscillator
+namespace regulator {
+inline constexpr std::uint32_t kControl = 0x4006'4000;
+inline constexpr std::uint32_t kEnabled = bit(0), k1150mV = 12U << 4;
+}  // namespace regulator
 namespace flash_line {
 inline constexpr std::uint32_t kControl = 0x1800'0000, kEnable = 0x1800'0008, kDivider = 0x1800'0014,
                                kStatus = 0x1800'0028, kData = 0x1800'0060;
@@ -95,6 +99,8 @@ constexpr std::uint32_t instruction(unsigned n) { return 0x5020'0048 + 4 * n; }
 constexpr std::uint32_t machine(unsigned n) { return 0x5020'00C8 + 0x18 * n; }
 inline constexpr std::uint32_t kDivider = 0x00, kShift = 0x08, kExecute = 0x10, kPins = 0x14;
 }  // namespace pio0
+/// The second block's registers are so far behind those of the first one.
+inline constexpr std::uint32_t kPio1 = 0x10'0000;
 namespace sio {
 inline constexpr std::uint32_t kInputs = 0xD000'0004, kSet = 0xD000'0014, kClear = 0xD000'0018,
                                kOutputEnable = 0xD000'0024;

@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::uint32_t kCrystal_mhz = 12;
 
+/// A clock of 200 MHz needs it (RP2040 datasheet, 2.15.3). It settles while the crystal starts.
+void raise_core_voltage() { at(regulator::kControl) = regulator::kEnabled | regulator::k1150mV; }
+
 void start_crystal() {
     at(crystal::kControl) = 0xAA0;                  // 1 to 15 MHz
     at(crystal::kStartup) = 47;                     // 1 ms, in 256 periods
@@ -35,9 +38,10 @@ void start_pll(std::uint32_t one, std::uint32_t feedback, std::uint32_t first, s
 }  // namespace
 
 void start_clocks() {
+    raise_core_voltage();
     start_crystal();
     end_reset(resets::kPllSys | resets::kPllUsb);
-    start_pll(pll::kSys, 125, 6, 2);  // 125 MHz
+    start_pll(pll::kSys, 100, 6, 1);  // 200 MHz
     start_pll(pll::kUsb, 100, 5, 5);  // 48 MHz
     at(clocks::kRefControl) = 2;      // the crystal
     wait_for(clocks::kRefSelected, bit(2));
@@ -48,7 +52,8 @@ void start_clocks() {
     at(clocks::kPeripheralControl) = bit(11);
     at(clocks::kUsbControl) = bit(11);
     at(watchdog::kTick) = bit(9) | kCrystal_mhz;
-    end_reset(resets::kIoBank | resets::kPads | resets::kPio0 | resets::kTimer | resets::kUart0 | resets::kUsb);
+    end_reset(resets::kIoBank | resets::kPads | resets::kPio0 | resets::kPio1 | resets::kTimer | resets::kUart0 |
+              resets::kUsb);
 }
 
 }  // namespace lockstep::firmware

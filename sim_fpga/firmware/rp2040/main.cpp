@@ -5,6 +5,7 @@
 #include "sim_fpga/firmware/rp2040/clocks.hpp"
 #include "sim_fpga/firmware/rp2040/flash_id.hpp"
 #include "sim_fpga/firmware/rp2040/output_pins.hpp"
+#include "sim_fpga/firmware/rp2040/pwm_pins.hpp"
 #include "sim_fpga/firmware/rp2040/uart.hpp"
 #include "sim_fpga/firmware/rp2040/usb_line.hpp"
 #include "sim_fpga/registers.hpp"
@@ -76,6 +77,7 @@ extern "C" int main() {
     start_clocks();
     connect_step_pins();
     connect_outputs();
+    connect_pwm();
     const std::uint64_t flash = read_flash_id();
     UartLine uart;
     UsbLine usb(flash != 0 ? flash : registers::kMapChecksumValue);
@@ -86,6 +88,7 @@ extern "C" int main() {
     for (;;) {
         usb.serve();
         if (usb.takes_boot_request() && !board().is_any_enabled()) { enter_boot_mode(); }
+        board().show_light();
         if (!board().serve_link()) { asm volatile("wfi"); }  // the render's alarm ends it, at the latest
     }
 }

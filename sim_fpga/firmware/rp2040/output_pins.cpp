@@ -2,6 +2,7 @@
 
 #include "sim_fpga/firmware/rp2040/chip.hpp"
 #include "sim_fpga/firmware/rp2040/pin_program.hpp"
+#include "sim_fpga/firmware/rp2040/waiting_words.hpp"
 
 namespace lockstep::firmware {
 
@@ -25,13 +26,9 @@ constexpr std::uint32_t kOutputInstructions[] = {
     lasting(jump_if_x_counts_down(kOutputProgram + 2), 11),  // 480 ns: always, because X is not 0
 };
 
-// The execution of ticks alone writes `queued_changes`, feed_outputs() alone `fed_changes`.
-std::uint32_t waiting_changes[kOutputWords];
-volatile std::uint32_t queued_changes;
-volatile std::uint32_t fed_changes;
+constinit WaitingWords<kOutputWords> waiting_changes;
 
 constexpr std::uint32_t machine() { return pio0::machine(kOutputMachine); }
-bool has_room() { return (at(pio0::kLevels) >> 8 * kOutputMachine & 15) < kMachineWords; }
 
 bool is_before(std::uint32_t one, std::uint32_t other) { return static_cast<std::int32_t>(one - other) < 0; }
 std::uint32_t later(std::uint32_t one, std::uint32_t other) { return is_before(one, other) ? other : one; }
@@ -79,8 +76,7 @@ void OutputPins::queue_block(std::int64_t now) {
 
 void OutputPins::hold(std::uint32_t until) {
     if (until == held_) { return; }
-    waiting_changes[queued_changes % kOutputWords] = levels_ << (32 - kPins) | (until - held_ - 1);
-    queued_changes = queued_changes + 1;
+    waiting_changes.put(levels_ << (32 - kPins) | (until - held_ - 1));
     held_ = until;
 }
 
@@ -96,10 +92,10 @@ void OutputPins::apply_until(std::uint32_t time) {
 void connect_outputs() {
     unsigned n = kOutputProgram;
     for (const std::uint32_t instruction : kOutputInstructions) { at(pio0::instruction(n++)) = instruction; }
-    at(machine() + pio0::kDivider) = kDividerOf125MHz << 16;
+    at(machine() + pio0::kDivider) = kDividerOf200MHz << 16;
     at(machine() + pio0::kShift) = bit(30) | bit(17);  // one queue of 8 words; taken by itself, highest bit first
     for (const MotorOutputs& outputs : kOutputs) {
-        for (unsigned k = 0; k < outputs.count; ++k) { connect_pin(machine(), outputs.pins[k]); }
+        for (unsigned k = 0; k < outputs.count; ++k) { connect_pin(machine(), outputs.pins[k], io::kPio0); }
     }
     at(machine() + pio0::kPins) = kPins << 20 | kFirstPin;
     at(machine() + pio0::kExecute) = jump(kOutputProgram);
@@ -111,15 +107,7 @@ void invert_outputs(std::size_t motor, std::uint16_t inverted) {
     }
 }
 
-void feed_outputs() {
-    std::uint32_t fed = fed_changes;
-    const std::uint32_t queued = queued_changes;
-    if (fed == queued) { return; }
-    for (; fed != queued && has_room(); ++fed) {
-        at(pio0::transmit(kOutputMachine)) = waiting_changes[fed % kOutputWords];
-    }
-    fed_changes = fed;
-}
+void feed_outputs() { waiting_changes.feed(0, kOutputMachine); }
 
 void switch_outputs_off() { at(machine() + pio0::kExecute) = kPinsLow; }
 

@@ -10,7 +10,9 @@ constexpr std::uint32_t lasting(std::uint32_t instruction, std::uint32_t more) {
 constexpr std::uint32_t jump(std::uint32_t to) { return to; }
 constexpr std::uint32_t jump_if_x_is_0(std::uint32_t to) { return 1 << 5 | to; }
 constexpr std::uint32_t jump_if_x_counts_down(std::uint32_t to) { return 2 << 5 | to; }
+constexpr std::uint32_t jump_if_y_is_0(std::uint32_t to) { return 3 << 5 | to; }
+constexpr std::uint32_t jump_if_y_counts_down(std::uint32_t to) { return 4 << 5 | to; }
 
-inline constexpr std::uint32_t kDividerOf125MHz = 5;
+inline constexpr std::uint32_t kDividerOf200MHz = 8;
 
 }  // namespace lockstep::firmware

@@ -3,6 +3,7 @@
 #include "sim_fpga/firmware/rp2040/chip.hpp"
 #include "sim_fpga/firmware/rp2040/output_pins.hpp"
 #include "sim_fpga/firmware/rp2040/pin_program.hpp"
+#include "sim_fpga/firmware/rp2040/pwm_pins.hpp"
 #include "sim_fpga/registers.hpp"
 
 namespace lockstep::firmware {
@@ -57,10 +58,10 @@ void load_program() {
 
 void connect_motor(std::size_t motor) {
     const std::uint32_t machine = pio0::machine(static_cast<unsigned>(motor));
-    at(machine + pio0::kDivider) = kDividerOf125MHz << 16;
+    at(machine + pio0::kDivider) = kDividerOf200MHz << 16;
     at(machine + pio0::kShift) = bit(30) | bit(17);  // one queue of 8 words; taken by itself, highest bit first
-    connect_pin(machine, step_pin(motor));
-    connect_pin(machine, direction_pin(motor));
+    connect_pin(machine, step_pin(motor), io::kPio0);
+    connect_pin(machine, direction_pin(motor), io::kPio0);
     at(machine + pio0::kPins) = 1U << 26 | step_pin(motor) << 5 | 1U << 20 | direction_pin(motor);
     at(io::control(enable_pin(motor))) = io::kSio;
     at(sio::kOutputEnable) = bit(enable_pin(motor));
@@ -72,15 +73,16 @@ void connect_motor(std::size_t motor) {
 
 }  // namespace
 
-void connect_pin(std::uint32_t machine, unsigned pin) {
+void connect_pin(std::uint32_t machine, unsigned pin, std::uint32_t function) {
     at(machine + pio0::kPins) = 1U << 26 | pin << 5;  // one pin for SET
     at(machine + pio0::kExecute) = kSetPinsOutput;
     at(machine + pio0::kExecute) = kSetPinsLow;
-    at(io::control(pin)) = io::kPio0;
+    at(io::control(pin)) = function;
 }
 
 void MotorPins::begin_block(std::int64_t now) {
     block_ = now;
+    stepped_ = stepped_ > kLongAgo ? stepped_ - static_cast<std::int32_t>(kRenderTicks) : kLongAgo;
     words_[0] = words_[kWordsPerBlock];
     words_[1] = words_[kWordsPerBlock + 1];
     for (std::uint32_t n = 2; n < kWordsPerBlock + 2; ++n) { words_[n] = is_forward_ ? kEachDirectionBit : 0; }
@@ -88,41 +90,51 @@ void MotorPins::begin_block(std::int64_t now) {
 
 void MotorPins::look() { pins_ = at(sio::kInputs) >> first_input_pin(motor_) & 7; }
 
-void MotorPins::step(std::int64_t tick, int direction) {
-    const bool turns = (direction > 0) != is_forward_;
-    if (turns && tick - stepped_ < kLeastStepTicks) {
-        pulse(stepped_);
-        stepped_ = kLongAgo;
-        return;
-    }
-    if (turns) { turn(tick); }
-    pulse(tick);
-    stepped_ = tick;
+/// The step before the first one may be taken back, and the first one with it.
+std::uint32_t MotorPins::step(const StepBlock& block, std::uint32_t steps) {
+    const auto begin = static_cast<std::int32_t>(block.begin - block_);
+    const bool is_forward = block.direction > 0;
+    std::uint32_t n = 0;
+    while (n < steps && is_forward != is_forward_ && !turn(begin + block.after[n])) { ++n; }
+    if (n < steps) { stepped_ = begin + block.after[steps - 1]; }
+    const Pulse pulse = pulse_;
+    for (; n < steps; ++n) { toggle(pulse, begin + block.after[n]); }
+    return steps;
 }
 
 /// Adds the pulse of a step, or takes it back.
-void MotorPins::pulse(std::int64_t tick) {
-    const auto rise = static_cast<std::uint32_t>(tick - block_ - 1 + kLeastStepTicks) + delay_;
+void MotorPins::toggle(Pulse pulse, std::int32_t tick) {
+    const std::uint32_t rise = static_cast<std::uint32_t>(tick - 1) + kLeastStepTicks + pulse.delay;
     const std::uint32_t bits = rise % kTicksPerWord * 2;
     std::uint32_t* const word = words_ + rise / kTicksPerWord;
-    word[0] ^= pulse_ >> bits;
-    if (const std::uint32_t rest = pulse_ << 1 << (31 - bits); rest != 0) { word[1] ^= rest; }
+    word[0] ^= pulse.bits >> bits;
+    if (const std::uint32_t rest = pulse.bits << 1 << (31 - bits); rest != 0) { word[1] ^= rest; }
 }
 
 void MotorPins::show(std::int64_t tick, std::uint16_t levels) { outputs_.show(motor_, tick, levels); }
 
-void MotorPins::turn(std::int64_t tick) {
+/// A motor has one analog output, or none.
+void MotorPins::show_analog(std::size_t /*channel*/, const Ramp& ramp) { pwm_.show(motor_, ramp); }
+
+/// Before a step in the other direction. Returns false if it comes too early: then the step before it is taken back.
+bool MotorPins::turn(std::int32_t tick) {
+    if (tick - stepped_ < static_cast<std::int32_t>(kLeastStepTicks)) {
+        toggle(pulse_, stepped_);
+        stepped_ = kLongAgo;
+        return false;
+    }
     is_forward_ = !is_forward_;
-    const auto n = static_cast<std::uint32_t>(tick - block_ - 1 + kLeastStepTicks);
+    const std::uint32_t n = static_cast<std::uint32_t>(tick - 1) + kLeastStepTicks;
     std::uint32_t word = n / kTicksPerWord;
     words_[word] ^= kEachDirectionBit & (~std::uint32_t{0} >> n % kTicksPerWord * 2);
     while (++word < kWordsPerBlock + 2) { words_[word] ^= kEachDirectionBit; }
+    return true;
 }
 
 void MotorPins::time(std::uint32_t width_ns, std::uint32_t direction_ns) {
     const std::uint32_t ticks = width_ns == 0 ? 1 : ticks_of(width_ns);
-    pulse_ = kEachStepBit & ~(~std::uint32_t{0} >> 2 * ticks);
-    delay_ = direction_ns <= kDirectionToStep_ns ? 0 : ticks_of(direction_ns - kDirectionToStep_ns);
+    pulse_.bits = kEachStepBit & ~(~std::uint32_t{0} >> 2 * ticks);
+    pulse_.delay = direction_ns <= kDirectionToStep_ns ? 0 : ticks_of(direction_ns - kDirectionToStep_ns);
 }
 
 void MotorPins::queue_block() const {
@@ -143,6 +155,8 @@ void MotorPins::invert(std::uint64_t inverted) const {
 
 void connect_step_pins() {
     load_program();
+    at(io::control(kLightPin)) = io::kSio;
+    at(sio::kOutputEnable) = bit(kLightPin);
     for (std::size_t motor = 0; motor < kMotors; ++motor) { connect_motor(motor); }
 }
 
@@ -150,12 +164,14 @@ void connect_step_pins() {
 void start_step_pins() {
     at(pio0::kDebug) = ~std::uint32_t{0};
     at(pio0::kControl) = kAllMachines << 8 | kAllMachines << 4 | kAllMachines;
+    start_pwm();
 }
 
 void stop_step_pins() {
     at(pio0::kControl) = 0;
     for (unsigned motor = 0; motor < kMotors; ++motor) { at(pio0::machine(motor) + pio0::kExecute) = kSetPinsLow; }
     switch_outputs_off();
+    stop_pwm();
 }
 
 bool have_room_for_block() { return queued_words - fed_words <= kWaitingWords - kWordsPerBlock; }
@@ -172,8 +188,9 @@ void feed_machines() {
     }
     fed_words = fed;
     feed_outputs();
+    feed_pwm();
 }
 
-bool have_run_dry() { return (at(pio0::kDebug) >> 24 & kAllMachines) != 0; }
+bool have_run_dry() { return (at(pio0::kDebug) >> 24 & kAllMachines) != 0 || has_pwm_run_dry(); }
 
 }  // namespace lockstep::firmware

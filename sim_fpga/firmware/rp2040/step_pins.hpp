@@ -34,6 +34,9 @@ inline constexpr std::uint32_t kDirectionToStep_ns = 600;
 /// From the machine's tick of a step to its edge, at most.
 inline constexpr std::uint32_t kMostDelayTicks = kLeastStepTicks + 7;
 
+/// The light of a Pico.
+inline constexpr unsigned kLightPin = 25;
+
 // Pins of motor n.
 inline constexpr unsigned kUartTransmitPin = 0, kUartReceivePin = 1;
 constexpr unsigned step_pin(std::size_t motor) { return static_cast<unsigned>(2 + motor); }
@@ -43,12 +46,15 @@ constexpr unsigned enable_pin(std::size_t motor) { return static_cast<unsigned>(
 constexpr unsigned first_input_pin(std::size_t motor) { return static_cast<unsigned>(13 + 3 * motor); }
 
 class OutputPins;
+class PwmPins;
 
 /// A motor's pins. Its steps of a block are collected, and then queued.
 class MotorPins final : public Port {
 public:
-    /// `outputs` must outlive this object.
-    MotorPins(std::size_t motor, OutputPins& outputs) : motor_(motor), outputs_(outputs) { time(0, 0); }
+    /// Both must outlive this object.
+    MotorPins(std::size_t motor, OutputPins& outputs, PwmPins& pwm) : motor_(motor), outputs_(outputs), pwm_(pwm) {
+        time(0, 0);
+    }
 
     /// Begins the block behind tick `now`.
     void begin_block(std::int64_t now);
@@ -63,24 +69,30 @@ public:
     void time(std::uint32_t width_ns, std::uint32_t direction_ns);
 
     std::uint32_t pins() const override { return pins_; }
-    void step(std::int64_t tick, int direction) override;
+    std::uint32_t step(const StepBlock& block, std::uint32_t steps) override;
     void show(std::int64_t tick, std::uint16_t levels) override;
+    void show_analog(std::size_t channel, const Ramp& ramp) override;
     std::int64_t encoder() const override { return 0; }
 
 private:
-    static constexpr std::int64_t kLongAgo = -1'000'000;
+    struct Pulse {
+        std::uint32_t bits;   // of one that begins with a word
+        std::uint32_t delay;  // behind the direction, in ticks
+    };
+    static constexpr std::int32_t kLongAgo = -1000;
 
-    void pulse(std::int64_t tick);
-    void turn(std::int64_t tick);
+    // Ticks are counted from the block's begin.
+    void toggle(Pulse pulse, std::int32_t tick);
+    bool turn(std::int32_t tick);
 
     std::size_t motor_;
     OutputPins& outputs_;
+    PwmPins& pwm_;
     std::uint32_t pins_ = 0;
     std::int64_t block_ = 0;           // the tick before the block
     bool is_forward_ = false;          // the level of the direction pin
-    std::int64_t stepped_ = kLongAgo;  // the tick of the last step that is made
-    std::uint32_t delay_ = 0;          // of pulses behind the direction, in ticks
-    std::uint32_t pulse_;              // the bits of a pulse that begins with a word
+    std::int32_t stepped_ = kLongAgo;  // the tick of the last step that is made
+    Pulse pulse_;
     // The block, kLeastStepTicks late, so that it has the last step if an opposite one may take it back. Two more words
     // have what comes behind it.
     std::uint32_t words_[kWordsPerBlock + 2]{};
@@ -90,8 +102,8 @@ private:
 inline constexpr unsigned kOutputMachine = kMotors;
 /// The first instruction behind those of motors' machines.
 inline constexpr unsigned kOutputProgram = 7;
-/// Makes a pin an output of a machine, given by its registers, at the low level.
-void connect_pin(std::uint32_t machine, unsigned pin);
+/// Makes a pin an output of a machine, given by its registers, at the low level. function: of the machine's block.
+void connect_pin(std::uint32_t machine, unsigned pin, std::uint32_t function);
 
 /// Loads the machines and connects all pins. The machines wait.
 void connect_step_pins();

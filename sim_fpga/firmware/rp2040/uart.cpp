@@ -20,8 +20,8 @@ std::uint32_t received_tail;
 }  // namespace
 
 void UartLine::start() {
-    at(uart0::kWholeDivider) = 7;  // 125 MHz / 16 / 7.8125
-    at(uart0::kFraction) = 52;
+    at(uart0::kWholeDivider) = 12;  // 200 MHz / 16 / 12.5
+    at(uart0::kFraction) = 32;
     at(uart0::kLine) = 0x70;      // 8 bits, queues
     at(uart0::kControl) = 0x301;  // both directions
     at(uart0::kInterrupts) = uart0::kReceive | uart0::kReceiveTimeout;

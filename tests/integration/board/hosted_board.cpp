@@ -61,16 +61,24 @@ public:
     WatchedPlant(Plant plant, std::string name, std::FILE* edges)
         : plant_(std::move(plant)), name_(std::move(name)), edges_(edges) {}
     std::uint32_t pins() const override { return plant_.pins(); }
-    void step(std::int64_t tick, int direction) override {
+    std::uint32_t step(const firmware::StepBlock& block, std::uint32_t steps) override {
+        const std::uint32_t before = plant_.pins();
+        std::uint32_t made = 0;
+        for (; made < steps && plant_.pins() == before; ++made) { step(block.tick(made), block.direction); }
+        return made;
+    }
+    void show(std::int64_t /*tick*/, std::uint16_t /*levels*/) override {}
+    void show_analog(std::size_t /*channel*/, const firmware::Ramp& /*ramp*/) override {}
+    std::int64_t encoder() const override { return plant_.encoder(); }
+
+private:
+    void step(std::int64_t tick, int direction) {
         plant_.step({Tick{tick}, static_cast<std::int8_t>(direction)});
         if (edges_ != nullptr) {
             std::fprintf(edges_, "%s %lld %d\n", name_.c_str(), static_cast<long long>(tick), direction);
         }
     }
-    void show(std::int64_t /*tick*/, std::uint16_t /*levels*/) override {}
-    std::int64_t encoder() const override { return plant_.encoder(); }
 
-private:
     Plant plant_;
     std::string name_;
     std::FILE* edges_;
@@ -110,6 +118,10 @@ public:
         for (; !arrived_.empty() && there_.is_free(now); arrived_.pop_front()) {
             there_.take(now - kLoop, 1);
             take(arrived_.front());
+        }
+        for (; light_requests_ < board_words_->light_requests(); ++light_requests_) {
+            std::puts("the light flashes");
+            std::fflush(stdout);
         }
         firmware::Frame frame;
         for (int left = 8; left > 0 && back_.is_free(now) && line.is_free(); --left) {
@@ -192,6 +204,7 @@ private:
     std::vector<std::unique_ptr<firmware::Device>> devices_;
     std::vector<firmware::Words*> words_;
     std::optional<firmware::BoardWords> board_words_;
+    std::uint32_t light_requests_ = 0;  // that were obeyed
     std::optional<firmware::Link> link_;
     std::mt19937_64 random_{1};
 };

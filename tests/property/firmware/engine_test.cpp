@@ -57,9 +57,14 @@ TEST(FirmwareEngine, MakesTheStepsOfTheTickByTickForm) {
         engine.rebase({segment.from.count(), segment.from.phase()});
         engine.begin(words_of(segment.piece));
         while (!engine.is_idle()) {
-            engine.run(engine.now() + 1 + segments.below(100), [&](std::int64_t tick, int direction) {
-                made.push_back({Tick{tick}, static_cast<std::int8_t>(direction)});
-                return segments.one_in(2);
+            engine.run(engine.now() + 1 + segments.below(100), [&](const firmware::StepBlock& block) {
+                const bool pauses = segments.one_in(2);
+                const auto most = static_cast<std::uint32_t>(segments.below(block.size));
+                const std::uint32_t steps = pauses ? 1 + most : block.size;
+                for (std::uint32_t n = 0; n < steps; ++n) {
+                    made.push_back({Tick{block.tick(n)}, static_cast<std::int8_t>(block.direction)});
+                }
+                return firmware::TakenSteps{steps, pauses};
             });
         }
         ASSERT_TRUE(made == expected) << "trial " << trial;

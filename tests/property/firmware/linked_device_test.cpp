@@ -11,6 +11,7 @@
 #include "sim_fpga/firmware/device/device.hpp"
 #include "sim_fpga/firmware/host/host_words.hpp"
 #include "sim_fpga/firmware/link/board_words.hpp"
+#include "sim_fpga/firmware/link/identify_word.hpp"
 #include "tests/property/firmware/poor_line.hpp"
 #include "tests/property/firmware/twin_devices.hpp"
 
@@ -54,6 +55,11 @@ public:
         return std::ranges::all_of(windows_,
                                    [](const RegisterWindow& one) { return one.load(registers::kMagic) != 0; });
     }
+    /// Asks the board to let its light blink.
+    void identify(std::size_t motor) {
+        windows_[motor].store(firmware::kIdentifyWord, windows_[motor].load(firmware::kIdentifyWord) + 1);
+    }
+    std::uint32_t light_requests() const { return board_words_.light_requests(); }
     DeviceDriver driver(std::size_t motor) { return DeviceDriver::attach(windows_[motor], kTwinTick_ns).value(); }
 
 private:
@@ -152,6 +158,16 @@ TEST(LinkedBoard, MakesTheSameStepsOverAPoorLine) { expect_motion_over({.damaged
 /// Of all bytes 2.5 % are damaged, 2.5 % lost and 5 % late. All orders arrive within minutes, in parts.
 TEST(LinkedBoard, MakesTheSameStepsOverALineThatSpoilsOrDelaysOneByteOfTen) {
     expect_motion_over({.damaged = 25, .lost = 25, .late = 50}, 3, 200'000'000);
+}
+
+TEST(LinkedBoard, IsAskedForItsLightOnceForEachNumber) {
+    LinkedBoard board({.damaged = 5, .lost = 5, .late = 10}, 4);
+    board.run(1'000'000);
+    ASSERT_TRUE(board.is_found());
+    EXPECT_EQ(board.light_requests(), 0U);
+    board.identify(1);
+    board.run(2'000'000);
+    EXPECT_EQ(board.light_requests(), 1U);
 }
 
 /// A message with any items, as a program would send it that does not know the map.

@@ -50,6 +50,13 @@ std::optional<std::string> TwinDevices::difference() const {
     if (auto found = ring(registers::kEventRing, firmware::kEventRoom, registers::kEventRingEntryBytes)) {
         return found;
     }
+    for (std::size_t n = 0; n < firmware::kMostAnalog; ++n) {
+        const auto word = load(n < 4 ? registers::kAnalogLower : registers::kAnalogUpper);
+        const Tick now{static_cast<std::int64_t>(load(registers::kTick))};
+        if (static_cast<std::uint64_t>(port_.shown(n, now)) >> 47 != (word >> (n % 4 * 16) & 0xFFFF)) {
+            return "the port shows another analog value than the words do";
+        }
+    }
     if (port_.shown() != load(registers::kOutputs)) { return "the port shows other outputs than the word OUTPUTS"; }
     return ring(registers::kCaptureRing, firmware::kCaptureRoom, registers::kCaptureRingEntryBytes);
 }

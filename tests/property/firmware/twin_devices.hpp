@@ -1,6 +1,7 @@
 // The simulated device and the firmware's, each with its own plant, behind the same words of the host.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -18,17 +19,26 @@ class PlantPort final : public firmware::Port {
 public:
     explicit PlantPort(Plant plant) : plant_(std::move(plant)) {}
     std::uint32_t pins() const override { return plant_.pins(); }
-    void step(std::int64_t tick, int direction) override {
-        plant_.step({Tick{tick}, static_cast<std::int8_t>(direction)});
+    std::uint32_t step(const firmware::StepBlock& block, std::uint32_t steps) override {
+        const std::uint32_t before = plant_.pins();
+        std::uint32_t made = 0;
+        for (; made < steps && plant_.pins() == before; ++made) {
+            plant_.step({Tick{block.tick(made)}, static_cast<std::int8_t>(block.direction)});
+        }
+        return made;
     }
     void show(std::int64_t /*tick*/, std::uint16_t levels) override { shown_ = levels; }
+    void show_analog(std::size_t channel, const firmware::Ramp& ramp) override { ramps_[channel] = ramp; }
     std::uint16_t shown() const { return shown_; }
+    /// What an analog output shows after this tick.
+    std::int64_t shown(std::size_t channel, Tick now) const { return ramps_[channel].at(now.value); }
     std::int64_t encoder() const override { return plant_.encoder(); }
     Plant& plant() { return plant_; }
 
 private:
     Plant plant_;
     std::uint16_t shown_ = 0;
+    std::array<firmware::Ramp, firmware::kMostAnalog> ramps_;
 };
 
 class TwinDevices {

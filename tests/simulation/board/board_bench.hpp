@@ -11,6 +11,7 @@
 
 #include "services/axis/device_driver.hpp"
 #include "sim_fpga/firmware/host/host_words.hpp"
+#include "sim_fpga/firmware/link/identify_word.hpp"
 #include "tests/simulation/board/pin_watch.hpp"
 
 namespace lockstep::testing {
@@ -34,6 +35,8 @@ public:
         for (const std::uint8_t byte : bytes) { link_.take(byte, now_us); }
     }
     DeviceDriver driver(std::size_t motor) { return DeviceDriver::attach(windows_[motor], kTick_ns).value(); }
+    /// Asks the board to let its light blink.
+    void identify() { windows_[1].store(firmware::kIdentifyWord, windows_[1].load(firmware::kIdentifyWord) + 1); }
     bool is_connected() const { return windows_[kMotors - 1].load(registers::kMagic) == registers::kMagicValue; }
     std::uint64_t tick() const { return windows_[0].load(registers::kTick); }
 
@@ -83,9 +86,17 @@ public:
     const std::vector<StepEdge>& steps(std::size_t motor) const { return pins_[motor].steps; }
     /// The changes of an output's pin so far.
     const std::vector<LevelChange>& levels(std::uint8_t pin) { return outputs_[pin]; }
+    /// The edges of a pin with PWM so far.
+    const std::vector<PinEdge>& edges(std::uint8_t pin) { return edges_[pin]; }
+    /// When the machines of the motors began, in cycles.
+    double start() const { return start_; }
+    /// How often the board's light went on so far.
+    int flashes() const { return flashes_; }
     void expect(std::size_t motor, const PinTimes& times) { pins_[motor].times = times; }
     /// The share of the busiest 2.5 ms so far in which the processor was in interrupts: it executed ticks.
     double busiest() const { return busiest_; }
+    /// The cycles that the processor was in interrupts so far.
+    double interrupted() const { return all_interrupted_; }
 
 private:
     std::vector<std::uint8_t> spoilt(std::vector<std::uint8_t> bytes) {
@@ -108,6 +119,8 @@ private:
         for (const PinEdge& edge : answer.edges) {
             if (edge.pin == kStartPin) { start_ = edge.cycle; }
             for (std::size_t motor = 0; motor < kMotors; ++motor) { pins_[motor].take(edge, motor, start_); }
+            if (edge.pin == kLightPin && edge.is_high) { ++flashes_; }
+            if (is_pwm(edge.pin)) { edges_[edge.pin].push_back(edge); }
             if (is_output(edge.pin)) { outputs_[edge.pin].push_back(level_change(edge, start_)); }
         }
     }
@@ -120,6 +133,7 @@ private:
     }
     void measure(std::uint32_t cycles) {
         constexpr std::size_t kSlices = 5;
+        all_interrupted_ += cycles;
         interrupted_.push_back(cycles);
         if (interrupted_.size() > kSlices) { interrupted_.pop_front(); }
         const double sum = std::accumulate(interrupted_.begin(), interrupted_.end(), 0.0);
@@ -137,10 +151,13 @@ private:
     bool is_babbling_ = false;
     std::array<PinWatch, kMotors> pins_;
     std::map<std::uint8_t, std::vector<LevelChange>> outputs_;
+    std::map<std::uint8_t, std::vector<PinEdge>> edges_;  // of PWM, by pin
+    int flashes_ = 0;
     std::uint32_t now_us_ = 0;
     double start_ = 0;
     std::uint32_t levels_ = 0;               // of the input pins; pin n is bit n
     std::deque<std::uint32_t> interrupted_;  // of the last slices
+    double all_interrupted_ = 0;
     double busiest_ = 0;
     bool is_poor_ = false;
     std::mt19937_64 random_{1};

@@ -7,16 +7,16 @@
 // these bytes. Answer: how many bytes the board has sent by its UART and by USB, how many edges its pins had, for how many
 // cycles the processor was in interrupts, what the board is (STATE), the bytes, the edges: processor cycle (f64), pin (u8),
 // level (u8). An end of input ends the process. The start of the machines that time the
-// pins is an edge of pin 255.
+// motors' pins is an edge of pin 255.
 //
 // The package rp2040js runs the chip's programmable machines (PIO) from a JavaScript timer, without dividers. Here they
 // run in step with the processor. It also lets a UART send without end; here a byte takes its time.
 import fs from 'node:fs';
 import { FIFO, GPIOPinState, RP2040 } from 'rp2040js';
 import { attachFlashId, FLASH_ID } from './flash_id.mjs';
-import { UsbHost } from './usb_host.mjs';
+import { MHZ, UsbHost } from './usb_host.mjs';
 
-const MHZ = 125;
+const VOLTAGE_FOR_IT = 0xc1; // 1.15 V
 const NS_PER_CYCLE = 1000 / MHZ;
 const BYTE_CYCLES = 10 * MHZ; // 1 MBd, with a start and a stop bit
 const UART_QUEUE = 32;
@@ -30,7 +30,7 @@ const ROM = [[0x14, 0x40], [0x18, 0x21], [0x20, 0x4800], [0x22, 0x4770], [0x24, 
   [0x32, 0xe7fe]];
 const ROM_END = 0x30;
 const TEXTS = `Lockstep,Motor board,${Buffer.from(FLASH_ID).toString('hex').toUpperCase()}`;
-const WATCHED_PINS = [2, 3, 4, 6, 7, 8, 10, 11, 12, 22, 26, 27, 28];
+const WATCHED_PINS = [2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 22, 25, 26, 27, 28];
 const INPUT_PINS = [13, 14, 15, 16, 17, 18, 19, 20, 21];
 const STACK_OF_BOOT_ROM = 0x20041f00;
 const SECOND_STAGE = 0x10000000;
@@ -75,6 +75,7 @@ class Board {
     this.#clockMachines();
     this.#connectUart();
     this.#watchPins();
+    this.#watchVoltage();
     attachFlashId(this.chip);
     for (const [at, half] of ROM) this.chip.bootrom[at >> 2] |= half << (8 * (at & 2));
     this.usb = new UsbHost(this.chip);
@@ -103,22 +104,36 @@ class Board {
     this.chip.peripherals[0x40060].readUint32 = () => Math.imul(++drawn, 0x9e3779b1) >>> 31;
   }
 
-  #clockMachines() {
-    const pio = this.chip.pio[0];
-    pio.run = () => {};
-    this.machines = pio.machines.map((machine) => new ClockedMachine(machine));
-    for (const machine of pio.machines) {
-      machine.clkDivRestart = () => {}; // a divider begins with its machine
-      machine.txFIFO = new FIFO(8); // the firmware joins both queues of a machine
-    }
-    const write = pio.writeUint32.bind(pio);
-    pio.writeUint32 = (offset, value) => {
+  /** The package has no regulator. The system's clock may change its source (0x3c) only with a core voltage for it. */
+  #watchVoltage() {
+    let voltage = 0;
+    this.chip.peripherals[0x40064].writeUint32 = (offset, value) => { if (offset === 0) voltage = value; };
+    const clocks = this.chip.peripherals[0x40008];
+    const write = clocks.writeUint32.bind(clocks);
+    clocks.writeUint32 = (offset, value) => {
+      if (offset === 0x3c && voltage !== VOLTAGE_FOR_IT) throw new Error('the core voltage is too low for the clock');
       write(offset, value);
-      if (offset !== 0) return;
-      for (const one of this.machines) one.followEnabled(this.now);
-      this.edges.push([this.now, START, 1]);
-      this.#nextDue = this.#nextInstruction();
     };
+  }
+
+  #clockMachines() {
+    this.machines = [];
+    for (const pio of this.chip.pio) {
+      pio.run = () => {};
+      for (const machine of pio.machines) {
+        machine.clkDivRestart = () => {}; // a divider begins with its machine
+        machine.txFIFO = new FIFO(8); // the firmware joins both queues of a machine
+        this.machines.push(new ClockedMachine(machine));
+      }
+      const write = pio.writeUint32.bind(pio);
+      pio.writeUint32 = (offset, value) => {
+        write(offset, value);
+        if (offset !== 0) return;
+        for (const one of this.machines) one.followEnabled(this.now);
+        if (pio === this.chip.pio[0]) this.edges.push([this.now, START, 1]);
+        this.#nextDue = this.#nextInstruction();
+      };
+    }
   }
 
   #connectUart() {
@@ -188,11 +203,10 @@ class Board {
   }
 
   #runMachines() {
-    const pio = this.chip.pio[0];
     while (this.#nextDue < this.now) {
       this.#edgeTime = this.#nextDue;
       for (const one of this.machines) if (one.due === this.#nextDue) one.step();
-      pio.checkChangedPins();
+      for (const pio of this.chip.pio) pio.checkChangedPins();
       this.#nextDue = this.#nextInstruction();
     }
     this.#edgeTime = null;

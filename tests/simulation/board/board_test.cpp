@@ -15,7 +15,7 @@ TEST_F(Board, MakesEachPinEdgeOfItsFrames) {
     for (std::size_t motor = 0; motor < kMotors; ++motor) { run_to_end(motor); }
     run(bench.now_us() + 1000);
     for (std::size_t motor = 0; motor < kMotors; ++motor) { expect_steps(courses[motor], motor); }
-    EXPECT_LE(bench.busiest(), 0.91) << "sim_fpga/firmware/README.md states it";
+    EXPECT_LE(bench.busiest(), 0.88) << "sim_fpga/firmware/README.md states it";
 }
 
 /// Each motor has a driver of its own kind. The times are the longest, some in between, and some below a tick.
@@ -54,6 +54,15 @@ TEST_F(Board, RefusesPulseTimesThatItCannotKeep) {
     EXPECT_FALSE(drivers[0].set_up({.step_width_ns = 7001}));
     EXPECT_FALSE(drivers[0].set_up({.direction_hold_ns = 8000}));
     EXPECT_TRUE(drivers[0].set_up({.direction_setup_ns = 7000}));
+}
+
+TEST_F(Board, FlashesItsLightWhenItsHostAsksForIt) {
+    constexpr std::uint32_t kPattern_us = 1 << 20;
+    bench.host(HostLine::Uart).identify();
+    bench.run(bench.now_us() + kPattern_us / 16);
+    const int asked = bench.flashes();
+    bench.run(bench.now_us() + kPattern_us);
+    EXPECT_EQ(bench.flashes(), asked + 4);
 }
 
 /// Motor 0 may run two frames. The switch of motor 1 closes on its way. Motor 2 is not concerned, and a byte of a

@@ -16,8 +16,8 @@ namespace lockstep::testing {
 
 inline constexpr std::size_t kMotors = 3;
 inline constexpr std::int64_t kTick_ns = 1000;
-inline constexpr double kCyclesPerTick = 125;
-inline constexpr double kDirectionToStep = 75;  // 600 ns
+inline constexpr double kCyclesPerTick = 200;
+inline constexpr double kDirectionToStep = 120;  // 600 ns
 
 inline constexpr int kLeastStep = 16;  // in ticks, from one step to the next
 
@@ -31,6 +31,8 @@ struct PinTimes {
 inline unsigned step_pin(std::size_t motor) { return static_cast<unsigned>(2 + motor); }
 inline unsigned direction_pin(std::size_t motor) { return static_cast<unsigned>(6 + motor); }
 
+inline constexpr std::uint8_t kLightPin = 25;
+
 /// A digital output's pin has another level after this tick.
 struct LevelChange {
     Tick tick;
@@ -39,6 +41,8 @@ struct LevelChange {
 };
 
 inline bool is_output(std::uint8_t pin) { return pin == 22 || (26 <= pin && pin <= 28); }
+
+inline bool is_pwm(std::uint8_t pin) { return pin == 5 || pin == 9; }
 
 /// The machine is as late as those of motors.
 inline LevelChange level_change(const PinEdge& edge, double start) {

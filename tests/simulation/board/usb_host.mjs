@@ -5,7 +5,7 @@
 // datasheet has it (chapter 4.1): a packet moves only if its endpoint's buffer is available, both buffers of an endpoint
 // take turns, packets are DATA0 and DATA1 in turn, and a transaction takes its time on the bus. What a host would not
 // accept ends the emulator with an error.
-const MHZ = 125;
+export const MHZ = 200; // the processor's
 const BUS_BYTE_CYCLES = (8 * MHZ) / 12; // 12 Mbit/s
 const OVERHEAD_BYTES = 13; // of a transaction: tokens, checksums, pauses
 const PACKET = 64;

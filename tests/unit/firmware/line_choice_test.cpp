@@ -19,6 +19,14 @@ TEST(LineChoice, ServesTheLineThatSpeaksFirst) {
     EXPECT_EQ(choice.line(), kUsb);
 }
 
+TEST(LineChoice, HasAHostUntilItIsSilent) {
+    LineChoice choice;
+    EXPECT_FALSE(choice.has_host(1));
+    choice.take(kUsb, 5);
+    EXPECT_TRUE(choice.has_host(4 + LineChoice::kPatience_us));
+    EXPECT_FALSE(choice.has_host(5 + LineChoice::kPatience_us));
+}
+
 TEST(LineChoice, IgnoresASecondHostWhileTheFirstOneSpeaks) {
     LineChoice choice;
     for (std::uint32_t now_us = 0; now_us < 1'000'000; now_us += 5'000) {
