@@ -1,7 +1,9 @@
 #include "sim_fpga/workpiece/shared_slides.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,6 +14,7 @@ namespace lockstep {
 namespace {
 
 constexpr std::size_t kBytes = 4096;
+constexpr int kMaxTries = 100;  // others may remove it as often while this process opens it
 static_assert(kMaxAxes * sizeof(std::int64_t) <= kBytes);
 
 std::unexpected<std::string> cannot(const std::string& name, const char* action) {
@@ -19,23 +22,58 @@ std::unexpected<std::string> cannot(const std::string& name, const char* action)
                            std::strerror(errno));
 }
 
+/// A file of shared memory that its users hold by a shared lock, which ends with the process in any case.
+class HeldMemory {
+public:
+    HeldMemory(std::string name, int file) : name_(std::move(name)), file_(file) {}
+    HeldMemory(const HeldMemory&) = delete;
+    HeldMemory& operator=(const HeldMemory&) = delete;
+    ~HeldMemory() {
+        if (words_ != nullptr) { ::munmap(words_, kBytes); }
+        const bool is_last = ::flock(file_, LOCK_EX | LOCK_NB) == 0;
+        if (is_last && is_linked()) { ::shm_unlink(name_.c_str()); }
+        ::close(file_);
+    }
+
+    /// Returns false if it was removed before the lock was taken.
+    bool hold() const { return ::flock(file_, LOCK_SH) == 0 && is_linked(); }
+    bool map() {
+        if (::ftruncate(file_, kBytes) != 0) { return false; }
+        void* const memory = ::mmap(nullptr, kBytes, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
+        if (memory == MAP_FAILED) { return false; }
+        words_ = static_cast<std::int64_t*>(memory);
+        return true;
+    }
+    std::int64_t* words() const { return words_; }
+
+private:
+    bool is_linked() const {
+        struct stat status {};
+        return ::fstat(file_, &status) == 0 && status.st_nlink > 0;
+    }
+
+    std::string name_;
+    int file_;
+    std::int64_t* words_ = nullptr;
+};
+
 }  // namespace
 
+std::string SharedSlides::name_of(const MachineConfig& machine) {
+    return "/lockstep-slides-" + machine.name + "-" + std::to_string(machine.network.domain);
+}
+
 std::expected<SharedSlides, std::string> SharedSlides::open(const MachineConfig& machine) {
-    const std::string name = "/lockstep-slides-" + machine.name + "-" + std::to_string(machine.network.domain);
-    const int file = ::shm_open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0660);
-    if (file < 0) { return cannot(name, "open it"); }
-    void* memory = MAP_FAILED;
-    if (::ftruncate(file, kBytes) == 0) {
-        memory = ::mmap(nullptr, kBytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    const std::string name = name_of(machine);
+    for (int tries = 0; tries < kMaxTries; ++tries) {
+        const int file = ::shm_open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0660);
+        if (file < 0) { return cannot(name, "open it"); }
+        const auto memory = std::make_shared<HeldMemory>(name, file);
+        if (!memory->hold()) { continue; }
+        if (!memory->map()) { return cannot(name, "map it"); }
+        return SharedSlides({memory, memory->words()}, motors_of(machine));
     }
-    const int error = errno;
-    ::close(file);
-    errno = error;
-    if (memory == MAP_FAILED) { return cannot(name, "map it"); }
-    return SharedSlides(std::shared_ptr<std::int64_t[]>(static_cast<std::int64_t*>(memory),
-                                                        [](std::int64_t* words) { ::munmap(words, kBytes); }),
-                        motors_of(machine));
+    return cannot(name, "lock it");
 }
 
 std::vector<Position> SharedSlides::places() const {

@@ -1,5 +1,6 @@
 // The places of a machine's simulated slides in shared memory, so that the simulated device of one motor knows where
-// the slides of the others are. Only a machine with a workpiece has it, and only simulated devices use it.
+// the slides of the others are. Only a machine with a workpiece has it, and only simulated devices use it. The last
+// process that closes it removes it. If this process is killed, the memory stays until the machine is up again.
 #pragma once
 
 #include <atomic>
@@ -20,6 +21,8 @@ class SharedSlides {
 public:
     /// Creates the memory if it is missing. Error: it cannot be created or mapped.
     static std::expected<SharedSlides, std::string> open(const MachineConfig& machine);
+    /// Its name, as of shm_open.
+    static std::string name_of(const MachineConfig& machine);
 
     /// Whole steps since the slide's power-up.
     void publish(MotorIndex motor, std::int64_t steps) { word(motor).store(steps, std::memory_order_relaxed); }
