@@ -35,7 +35,9 @@ void AxisRoster::take(const AxisState& state, Slot now) {
     AxisView& view = views_[state.axis];
     const bool is_repeat = view.state && view.state->identity == state.identity && state.stamp == view.state->stamp;
     const Slot last_stamp = view.state ? view.state->stamp : 0;
-    view = {state, now, is_repeat ? view.stamp_before : last_stamp, {}};
+    const bool is_same_place = view.state && view.state->position == state.position;
+    view = {
+        state, now, is_repeat ? view.stamp_before : last_stamp, is_repeat ? view.is_place_repeated : is_same_place, {}};
 }
 
 void AxisRoster::forgive(Slot missed, Slot now) {

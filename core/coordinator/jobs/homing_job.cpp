@@ -27,14 +27,18 @@ AxisCounts first_places(MotorSet motors, const LoopView& loop) {
     return places;
 }
 
-/// All motors of axes that have one that is not homed. The others may be at places that do not agree with it.
+/// All motors of axes that have one that is not homed, or at no place at which the axis rests: a path that stopped
+/// early may leave motors with different steps so. No path could begin there.
 MotorSet motors_without_places(const LoopView& loop) {
+    const MotorCounts counts = loop.axes.counts();
+    const MotorCounts agreeing = loop.kinematics.motors_at(loop.counts());
     MotorSet motors;
     for (const AxisIndex i : axis_indices(loop.machine.axes.size())) {
         const MotorSet of_axis = loop.kinematics.motors_of_axes({i});
         for (const MotorIndex m : of_axis) {
             const auto& state = loop.axes.state(m);
-            if (state && !state->homed) { motors |= of_axis; }
+            const bool has_place = state && state->homed && counts[m] == agreeing[m];
+            if (state && !has_place) { motors |= of_axis; }
         }
     }
     return motors;
@@ -150,6 +154,7 @@ void advance_homing(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoo
         const bool refused = state && state->command_fault != FaultCode::None;
         if (refused && order && is_of_homing(order->kind)) { return jobs.fail({state->command_fault, m}, loop); }
     }
+    if (homing.has_assumed && !are_places_repeated(loop.axes.views())) { return; }
     if (homing.touch) { return advance_touch(homing, jobs, loop); }
     if (home_next_group(homing, loop)) { return; }
     if (!homing.has_assumed) { return jobs.end(JobOutcome::Done, loop); }

@@ -11,20 +11,6 @@ namespace {
 constexpr double kHair_mm = 1e-9;   // a shorter part is none
 constexpr double kNearSide = 1e-3;  // steps: far more than the rounding of a rest
 
-/// The place of a motor's slide, in steps of the motor.
-double slide_at(const PathSetup& setup, MotorIndex motor, const Quadratic& axes, double u) {
-    const Quadratic end = part_of(axes, u, axes.length);
-    const double place = setup.motor_map.place(motor, end.from);
-    const bool rests = (u == 0 && axes.begins_at_rest) || axes.length == 0;
-    return rests ? std::round(place) : place;
-}
-
-PlaceVector end_of(const Quadratic& axes) {
-    PlaceVector end;
-    for (std::size_t i = 0; i < axes.from.size(); ++i) { end.append(axes.place(i, axes.length)); }
-    return end;
-}
-
 }  // namespace
 
 void BacklashRows::restart(double begin_mm, std::span<const Position> motors) {
@@ -35,13 +21,12 @@ void BacklashRows::restart(double begin_mm, std::span<const Position> motors) {
 }
 
 /// The plays of the motors where the path begins. A motor may have come to rest while it took up its play.
-void BacklashRows::find_sides(const PathSetup& setup, const Quadratic& axes) {
-    sides_.assign(setup.motors(), {});
+void BacklashRows::find_sides(const PathSetup& setup, const Quadratic& slides, double begin) {
     if (at_.empty()) { return; }
     for (const MotorIndex m : motor_indices(sides_.size())) {
         const Backlash& backlash = setup.backlashes[m].backlash;
         if (backlash.is_none()) { continue; }
-        const double slide = slide_at(setup, m, axes, std::min(begin_mm_, axes.length));
+        const double slide = slides.place(m, begin);
         double play = at_[m] - slide;
         for (const std::int64_t side : {backlash.low(), backlash.high()}) {
             if (std::abs(play - static_cast<double>(side)) < kNearSide) { play = static_cast<double>(side); }
@@ -53,7 +38,7 @@ void BacklashRows::find_sides(const PathSetup& setup, const Quadratic& axes) {
 /// The places at which a motor with backlash turns, and the end of the piece.
 void BacklashRows::find_cuts(const PathSetup& setup, const Quadratic& axes) {
     cuts_.clear();
-    for (const MotorIndex m : motor_indices(sides_.size())) {
+    for (const MotorIndex m : motor_indices(setup.motors())) {
         if (setup.backlashes[m].backlash.is_none()) { continue; }
         const double slope = setup.motor_map.shares().place(m, axes.slope);
         const double bend = setup.motor_map.shares().place(m, axes.bend);
@@ -68,14 +53,13 @@ void BacklashRows::find_cuts(const PathSetup& setup, const Quadratic& axes) {
 
 const std::vector<Quadratic>& BacklashRows::rows_of(const PathSetup& setup, const Quadratic& axes) {
     rows_.clear();
-    if (begins_) { find_sides(setup, axes); }
+    if (begins_) { sides_.assign(setup.motors(), {}); }
     find_cuts(setup, axes);
     double from = 0;
     for (const double to : cuts_) {
         add_part(setup, axes, from, to);
         from = to;
     }
-    begins_ = false;
     return rows_;
 }
 
@@ -93,30 +77,41 @@ bool BacklashRows::push(const MotorBacklash& motor, Side& side, double from, dou
     return turns;
 }
 
-/// Parts before the begin of the path are passed, so nothing is taken up in them.
+/// Parts before the begin of the path are passed, so nothing is taken up in them. Where the machine rests, the slides
+/// are on whole steps, so their rows tell where they are, not the axes.
 void BacklashRows::add_part(const PathSetup& setup, const Quadratic& axes, double from, double to) {
-    const double begin = begins_ ? std::clamp(begin_mm_, from, to) : from;
-    const bool is_passed = axes.length > 0 && begin >= to;
+    const Quadratic part = from == 0 && to == axes.length ? axes : part_of(axes, from, to);
+    Quadratic slides = RowPieces(setup, part).next();
+    const double begin = begins_ ? std::clamp(begin_mm_, from, to) - from : 0;
+    const bool is_passed = begin > 0 && begin >= slides.length;
+    if (begins_ && (!is_passed || to == axes.length)) {
+        find_sides(setup, slides, begin);
+        begins_ = false;
+    }
     before_ = sides_;
+    const bool takes_up = !is_passed && push_all(setup, slides, begin);
+    if (takes_up && begin > 0) {
+        add(part_of(slides, 0, begin), before_);
+        slides = part_of(slides, begin, slides.length);
+    }
+    add(slides, sides_);
+    if (takes_up) { add_take_up(setup, rows_.back(), before_); }
+}
+
+/// Returns whether a motor first has to take up its play.
+bool BacklashRows::push_all(const PathSetup& setup, const Quadratic& slides, double begin) {
     bool takes_up = false;
     for (const MotorIndex m : motor_indices(sides_.size())) {
         const MotorBacklash& motor = setup.backlashes[m];
-        if (is_passed || motor.backlash.is_none()) { continue; }
-        const double here = setup.motor_map.place(m, part_of(axes, begin, axes.length).from);
-        const double there = axes.length == 0 ? here : setup.motor_map.place(m, end_of(part_of(axes, from, to)));
-        takes_up = push(motor, sides_[m], here, there) || takes_up;
+        if (motor.backlash.is_none()) { continue; }
+        takes_up = push(motor, sides_[m], slides.place(m, begin), slides.place(m, slides.length)) || takes_up;
     }
-    const auto add = [&](double a, double b, const std::vector<Side>& sides) {
-        const Quadratic part = a == 0 && b == axes.length ? axes : part_of(axes, a, b);
-        Quadratic& rows = rows_.emplace_back(RowPieces(setup, part).next());
-        for (const MotorIndex m : motor_indices(sides.size())) { rows.from[m] += sides[m].play; }
-    };
-    if (takes_up && begin > from) {
-        add(from, begin, before_);
-        from = begin;
-    }
-    add(from, to, sides_);
-    if (takes_up) { add_take_up(setup, rows_.back(), before_); }
+    return takes_up;
+}
+
+void BacklashRows::add(const Quadratic& slides, const std::vector<Side>& sides) {
+    Quadratic& rows = rows_.emplace_back(slides);
+    for (const MotorIndex m : motor_indices(sides.size())) { rows.from[m] += sides[m].play; }
 }
 
 /// Inserts it before the last rows. The slowest motor takes as long as its speed demands; all begin and end together.

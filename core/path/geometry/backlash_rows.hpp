@@ -33,10 +33,12 @@ private:
         double turned = 0;  // the place of its slide that is farthest in the direction in which it was pushed last
     };
 
-    void find_sides(const PathSetup& setup, const Quadratic& axes);
+    void find_sides(const PathSetup& setup, const Quadratic& slides, double begin);
     void find_cuts(const PathSetup& setup, const Quadratic& axes);
     void add_part(const PathSetup& setup, const Quadratic& axes, double from, double to);
+    bool push_all(const PathSetup& setup, const Quadratic& slides, double begin);
     static bool push(const MotorBacklash& motor, Side& side, double from, double to);
+    void add(const Quadratic& slides, const std::vector<Side>& sides);
     void add_take_up(const PathSetup& setup, const Quadratic& next, const std::vector<Side>& before);
 
     std::vector<double> at_;
