@@ -8,6 +8,7 @@
 #include "clients/lockstep/job/job_watch.hpp"
 #include "clients/session/control/lease_turn.hpp"
 #include "clients/session/control/probe_touch.hpp"
+#include "clients/session/control/program_parts.hpp"
 #include "clients/session/inputs/input_report.hpp"
 #include "clients/session/record_loss.hpp"
 #include "clients/session/refusal.hpp"
@@ -16,7 +17,6 @@
 #include "clients/session/waits.hpp"
 #include "clients/text/format.hpp"
 #include "clients/text/notes.hpp"
-#include "core/coordinator/path/coordination.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 
@@ -82,35 +82,12 @@ proto::RunReport new_report(const Job& job) {
     return report;
 }
 
-/// Sends until the coordinator has all of the program and no longer needs this process. `before_it_runs`: fails if
-/// there is no room for all of it.
-std::expected<void, Failure> send_rest(Session& session, const StopSignal& stop, bool before_it_runs) {
-    while (!session.upload().sender()->is_done() && !session.upload().sender()->refusal()) {
-        if (stop.requested()) {
-            return std::unexpected(failed("interrupted; the machine runs the part that was sent"));
-        }
-        if (session.is_silent()) { return std::unexpected(silence(session)); }
-        if (before_it_runs && session.upload().sender()->lacks_room()) {
-            return std::unexpected(bad_input(
-                fmt::format("with coordination: LAI a program is planned as a whole, so it has at most {} blocks; "
-                            "split it in two, or choose another coordination",
-                            kMaxProgramBlocks)));
-        }
-        session.receive(100ms);
-    }
-    return {};
-}
-
 std::expected<Reply, Failure> begin(Session& session, const Job& job, const StopSignal& stop) {
     std::uint64_t program = 0;
     if (job.stream != nullptr) {
-        const auto feed = [&stream = *job.stream](ProgramSender& sender) { stream.feed(sender, monotonic_now()); };
-        const auto begun = stream_program(session, job.stream->head(), job.stream->values(), feed, &stop);
+        const auto begun = send_part(session, *job.stream, &stop);
         if (!begun) { return std::unexpected(begun.error()); }
         program = *begun;
-        const bool is_planned_whole = coordination_of(session.config()).plans_whole;
-        const auto sent = is_planned_whole ? send_rest(session, stop, true) : std::expected<void, Failure>{};
-        if (!sent) { return std::unexpected(sent.error()); }
     }
     if (job.program) {
         const auto sent = send_program(session, *job.program, &stop, job.values);
@@ -128,8 +105,10 @@ std::expected<Reply, Failure> begin(Session& session, const Job& job, const Stop
 
 /// Waits until the program's offsets and tools are on the coordinator's disk.
 void await_kept_values(Session& session, const Job& job, Output& output) {
-    if (!job.values || !job.values->after) { return; }
-    const auto kept = await_kept(session, job.values->revision + 1);
+    const bool changes = job.values && job.values->after;
+    const auto kept = job.stream != nullptr ? await_kept(session, *job.stream)
+                      : changes             ? await_kept(session, job.values->revision + 1)
+                                            : std::expected<void, Failure>{};
     if (!kept) { output.warn(kept.error().errors.front().message); }
 }
 
@@ -176,16 +155,9 @@ std::expected<void, Failure> read_on(Session& session, ProgramStream& stream, pr
                                      Output& output) {
     const auto touch = report_touch(session, report, output);
     if (!touch) { return std::unexpected(touch.error()); }
-    if (stream.changes_values()) {
-        if (auto kept = await_kept(session, stream.values().revision + 1); !kept) {
-            return std::unexpected(kept.error());
-        }
-    }
-    const auto values = await_values(session);
-    if (!values) { return std::unexpected(values.error()); }
-    const auto read = stream.touched(*touch, values->revision);
+    const auto read = read_next_part(session, stream, *touch);
     warn_of(stream.take_notes(), output);
-    return read ? std::expected<void, Failure>{} : std::unexpected(bad_file(report.name(), read.error()));
+    return read;
 }
 
 ExitCode end(Session& session, const Job& job, JobResult result, JobWatch& watch, proto::RunReport& report,
@@ -239,7 +211,7 @@ ExitCode run_job(Session& session, const Job& job, Output& output) {
         if (reply->status == ReplyStatus::Refused) { return print_refusal(title(job), *reply, report, output); }
         report.set_job(reply->job);
         if (job.detach && job.stream != nullptr) {
-            if (const auto sent = send_rest(session, stop, false); !sent) { return output.fail(sent.error()); }
+            if (const auto sent = send_rest(session, &stop); !sent) { return output.fail(sent.error()); }
         }
         if (job.detach && job.stream != nullptr && job.stream->awaits_touch()) {
             output.warn("the program probes: the lines behind its first probing move are not run; leave --detach out");

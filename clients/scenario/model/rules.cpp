@@ -9,6 +9,7 @@
 #include "clients/scenario/model/output_rules.hpp"
 #include "clients/scenario/model/problems.hpp"
 #include "clients/session/move_program.hpp"
+#include "services/documents/program_file.hpp"
 
 namespace lockstep::scenario {
 namespace {
@@ -22,6 +23,13 @@ std::int32_t last_line_of(const Program& program) {
     std::int32_t last = 0;
     for (const Block& block : program.blocks) { last = std::max(last, block.line.value_or(0)); }
     return last;
+}
+
+/// Each probing move is taken to touch at its end.
+std::expected<Program, Diagnostics> parse(const ProgramOfRun& program) {
+    auto parsed = parse_gcode(program.text, program.setup);
+    return parsed ? std::expected<Program, Diagnostics>(*std::move(parsed))
+                  : std::unexpected(to_diagnostics(parsed.error()));
 }
 
 class Rules {
@@ -124,13 +132,14 @@ private:
             return problems_.add(path, "a run needs one program; set file: \"FILE\" or gcode: \"G1 X10 F600\"");
         }
         const auto program = program_of(run, scenario_.folder(), machine_, parked_mm(machine_));
-        if (program) {
-            last_line_ = last_line_of(*program);
+        const auto parsed = program ? parse(*program) : std::unexpected(program.error());
+        if (parsed) {
+            last_line_ = last_line_of(*parsed);
             return;
         }
         const std::string key = run.has_file() ? ".file" : ".gcode";
         const std::string name = run.has_file() ? (scenario_.folder() / run.file()).string() : "gcode";
-        for (const Diagnostic& error : program.error()) { problems_.add(path + key, to_text(name, error)); }
+        for (const Diagnostic& error : parsed.error()) { problems_.add(path + key, to_text(name, error)); }
     }
 
     void check_move(const Asked::Move& move, const std::string& path) {

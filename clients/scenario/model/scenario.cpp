@@ -87,16 +87,16 @@ std::vector<std::string> processes_of(const Asked& asked, const MachineConfig& m
     return names;
 }
 
-std::expected<Program, Diagnostics> program_of(const Asked::Run& run, const fs::path& folder,
-                                               const MachineConfig& machine, const std::vector<double>& start_mm) {
-    if (run.has_file()) { return load_gcode_file(folder / run.file(), machine, start_mm); }
-    GcodeSetup setup = gcode_setup(machine, start_mm, "gcode");
-    setup.find_subroutine = subroutines_of(machine);
-    auto program = parse_gcode(run.gcode(), setup);
-    if (program) { return *std::move(program); }
-    Diagnostics errors;
-    for (const GcodeError& error : program.error()) { errors.push_back({error.line, error.column, error.message}); }
-    return std::unexpected(errors);
+std::expected<ProgramOfRun, Diagnostics> program_of(const Asked::Run& run, const fs::path& folder,
+                                                    const MachineConfig& machine, const std::vector<double>& start_mm,
+                                                    const gcode::KeptValues& values) {
+    const fs::path file = folder / (run.has_file() ? run.file() : "gcode");
+    ProgramOfRun program{run.gcode(), program_setup(file, machine, start_mm, {}, values)};
+    if (!run.has_file()) { return program; }
+    auto text = read_text_file(file);
+    if (!text) { return std::unexpected(Diagnostics{text.error()}); }
+    program.text = *std::move(text);
+    return program;
 }
 
 MachineConfig isolated(MachineConfig machine, Asked::Place place) {

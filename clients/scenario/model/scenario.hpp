@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/gcode/gcode.hpp"
 #include "core/machine.hpp"
-#include "core/program.hpp"
 #include "idl/proto/scenario.pb.h"
 #include "services/files/diagnostic.hpp"
 
@@ -40,9 +40,14 @@ bool has_links(Asked::Place place);
 /// The processes of the machine, by the names that `lockstep up` gives them.
 std::vector<std::string> processes_of(const Asked& asked, const MachineConfig& machine);
 
-/// Reads the program of a step for a machine at `start_mm`. Errors have their places in the program.
-std::expected<Program, Diagnostics> program_of(const Asked::Run& run, const std::filesystem::path& folder,
-                                               const MachineConfig& machine, const std::vector<double>& start_mm);
+/// The text of a step's program, and the interpreter that reads it from `start_mm`. Error: the file cannot be read.
+struct ProgramOfRun {
+    std::string text;
+    GcodeSetup setup;
+};
+std::expected<ProgramOfRun, Diagnostics> program_of(const Asked::Run& run, const std::filesystem::path& folder,
+                                                    const MachineConfig& machine, const std::vector<double>& start_mm,
+                                                    const gcode::KeptValues& values = {});
 
 /// Returns the machine with all its parts on this host, on an isolated network, with records in the scenario's
 /// directory.

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include "clients/scenario/model/scenario_text.hpp"
-#include "clients/session/job_plan.hpp"
-#include "clients/session/move_program.hpp"
+#include "clients/scenario/runner/step_job.hpp"
 #include "clients/session/reports.hpp"
-#include "clients/session/waits.hpp"
 #include "clients/text/format.hpp"
 #include "core/kinematics/motors.hpp"
 
@@ -36,10 +34,6 @@ Step::Ending ending_of(JobResult result) {
         case JobResult::Lost: return Step::LOST;
         default: return Step::FAILED;
     }
-}
-
-CommandKind command_of(const Step& step) {
-    return step.has_home() ? CommandKind::Home : step.has_run() ? CommandKind::Run : CommandKind::Move;
 }
 
 std::string text_of(const Failure& failure) { return to_text(failure.file, failure.errors); }
@@ -75,18 +69,6 @@ Moment moment_of(const Session& session, nanoseconds begun) {
                                  : std::nullopt);
     }
     return now;
-}
-
-std::expected<Program, std::string> program_of_step(const Scenario& scenario, const Step& step,
-                                                    const std::vector<double>& start_mm) {
-    if (step.has_run()) {
-        auto program = program_of(step.run(), scenario.folder(), scenario.machine, start_mm);
-        if (!program) { return std::unexpected(to_text("the program", program.error())); }
-        return *std::move(program);
-    }
-    MoveOptions options{.targets = {step.move().to().begin(), step.move().to().end()}};
-    if (step.move().has_feed_mm_min()) { options.feed_mm_min = step.move().feed_mm_min(); }
-    return move_program(scenario.machine, start_mm, options);
 }
 
 }  // namespace
@@ -146,22 +128,10 @@ bool ScenarioExecutor::wait_for(Asked::Phase phase) {
 
 void ScenarioExecutor::execute_job(const Step& step) {
     notes_.note(text_of(step));
-    const Term asked = session_.state() ? session_.state()->state.term : Term{};
-    const auto reply = begin(step);
     EventSchedule schedule(step, scenario_.machine.axis_names());
-    if (!reply) {
-        notes_.observed().broken = title(step) + ": " + reply.error();
-        return;
-    }
-    std::optional<Ended> end;
-    if (reply->status == ReplyStatus::Refused) {
-        end = Ended{Step::REFUSED, std::string(name_of(reply->fault))};
-    } else {
-        end = watch({reply->job, asked, asked}, schedule);
-    }
+    const auto end = run_to_end(step, schedule);
     if (!end) {
-        notes_.observed().broken =
-            title(step) + ": it has not ended after " + fixed(to_seconds(kJobPatience), 0) + " s";
+        notes_.observed().broken = title(step) + ": " + end.error();
         return check_left(step, schedule, "the job has not ended");
     }
     notes_.note(text_of(step) + ": " + text_of(end->ending) + (end->fault.empty() ? "" : ", " + end->fault));
@@ -169,35 +139,29 @@ void ScenarioExecutor::execute_job(const Step& step) {
     check_ending(step, *end);
 }
 
-std::expected<Reply, std::string> ScenarioExecutor::begin(const Step& step) {
-    Command command{.kind = command_of(step)};
-    for (const std::string& name : step.home().axis()) {
-        command.axes.insert(find_axis(scenario_.machine, name).value());
+std::expected<ScenarioExecutor::Ended, std::string> ScenarioExecutor::run_to_end(const Step& step,
+                                                                                 EventSchedule& schedule) {
+    auto job = StepJob::prepare(scenario_, step, session_);
+    if (!job) { return std::unexpected(text_of(job.error())); }
+    for (std::optional<nanoseconds> begun;;) {
+        const Term asked = session_.state() ? session_.state()->state.term : Term{};
+        const auto reply = job->begin();
+        if (!reply) { return std::unexpected(text_of(reply.error())); }
+        if (reply->status == ReplyStatus::Refused) { return Ended{Step::REFUSED, std::string(name_of(reply->fault))}; }
+        if (!begun) { begun = monotonic_now(); }
+        const auto end = watch({reply->job, asked, asked}, *begun, schedule);
+        if (!end) { return std::unexpected("it has not ended after " + fixed(to_seconds(kJobPatience), 0) + " s"); }
+        if (end->ending != Step::DONE) { return *end; }
+        const auto has_more = job->read_on(reply->job, notes_);
+        if (!has_more) { return std::unexpected(text_of(has_more.error())); }
+        if (!*has_more) { return *end; }
     }
-    if (!step.has_home()) {
-        const auto program = send(step);
-        if (!program) { return std::unexpected(program.error()); }
-        command.program = *program;
-    }
-    auto reply = send_command(session_, command);
-    if (!reply) { return std::unexpected(text_of(reply.error())); }
-    return *std::move(reply);
 }
 
-std::expected<std::uint64_t, std::string> ScenarioExecutor::send(const Step& step) {
-    const auto start_mm = start_places(session_);
-    if (!start_mm) { return std::unexpected(text_of(start_mm.error())); }
-    const auto program = program_of_step(scenario_, step, *start_mm);
-    if (!program) { return std::unexpected(program.error()); }
-    const auto sent = send_program(session_, *program);
-    if (!sent) { return std::unexpected(text_of(sent.error())); }
-    return *sent;
-}
-
-std::optional<ScenarioExecutor::Ended> ScenarioExecutor::watch(WatchedJob watched, EventSchedule& schedule) {
-    const nanoseconds since = monotonic_now();
-    while (monotonic_now() - since < kJobPatience) {
-        inject_due(schedule, since);
+std::optional<ScenarioExecutor::Ended> ScenarioExecutor::watch(WatchedJob watched, nanoseconds begun,
+                                                               EventSchedule& schedule) {
+    while (monotonic_now() - begun < kJobPatience) {
+        inject_due(schedule, begun);
         if (const auto end = ended(watched)) { return end; }
         poll_session();
     }

@@ -36,9 +36,8 @@ private:
     void execute_job(const Asked::Step& step);
     void execute_wait(const Asked::Step& step);
     void check_found(const Asked::Step& step);
-    std::expected<Reply, std::string> begin(const Asked::Step& step);
-    std::expected<std::uint64_t, std::string> send(const Asked::Step& step);
-    std::optional<Ended> watch(WatchedJob watched, EventSchedule& schedule);
+    std::expected<Ended, std::string> run_to_end(const Asked::Step& step, EventSchedule& schedule);
+    std::optional<Ended> watch(WatchedJob watched, std::chrono::nanoseconds begun, EventSchedule& schedule);
     std::optional<Ended> ended(WatchedJob& watched);
     void inject_due(EventSchedule& schedule, std::chrono::nanoseconds begun);
     void undo_due();
