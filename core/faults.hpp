@@ -145,7 +145,9 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(ProbeTouchedEarly, 153, "probe-touched-early", "the probe touched before the probing move had begun", \
       "check the probe and its wire; move it away from what it touches", in_order(Remedy::Again)) \
     X(TouchInMotion, 154, "touch-in-motion", "a probe touched while the machine moved without a probing move", \
-      "find out what it touched, and move the axes away after the reset; home them if they were pushed", in_order(Remedy::Reset))
+      "find out what it touched, and move the axes away after the reset; home them if they were pushed", in_order(Remedy::Reset)) \
+    X(EncoderReversed, 155, "encoder-reversed", "the encoder counts against the direction of its motor", \
+      "exchange the channels A and B of the encoder", in_order(Remedy::Reset, Remedy::Home))
 // clang-format on
 
 enum class FaultCode : std::uint16_t {

@@ -16,6 +16,28 @@ constexpr double kRounding = 1e-6;
 std::int64_t steps_down(double steps) { return std::llround(std::floor(steps + kRounding)); }
 std::int64_t steps_up(double steps) { return std::llround(std::ceil(steps - kRounding)); }
 
+/// A limit switch closes at least a step beyond every place that is within the limit switches, even if both are within
+/// one step: the places that the axis must reach, in steps since power-up. After homing the axis counts from its
+/// switch, so an end of travel is a number of whole steps from there.
+void keep_open(const MotorConfig& motor, std::int64_t home_at, std::int64_t& limit_min_at, std::int64_t& limit_max_at) {
+    const auto counted = [&](double mm) {
+        return home_at + to_steps(motor, mm) - to_steps(motor, motor.homing.switch_position_mm);
+    };
+    const std::array<std::pair<double, std::int64_t>, 4> places{
+        {{motor.plant.start_position_mm, 0},
+         {motor.homing.switch_position_mm, home_at},
+         {motor.position_min_mm, counted(motor.position_min_mm)},
+         {motor.position_max_mm, counted(motor.position_max_mm)}}};
+    for (const auto& [mm, steps] : places) {
+        if (mm > motor.position_min_mm - motor.plant.travel_margin_mm) {
+            limit_min_at = std::min(limit_min_at, steps - 1);
+        }
+        if (mm < motor.position_max_mm + motor.plant.travel_margin_mm) {
+            limit_max_at = std::max(limit_max_at, steps + 1);
+        }
+    }
+}
+
 }  // namespace
 
 Plant::Plant(const MotorConfig& motor, std::int64_t tick_ns)
@@ -26,32 +48,11 @@ Plant::Plant(const MotorConfig& motor, std::int64_t tick_ns)
     home_toward_min_ = motor.homing.toward_min;
     const double home = steps_to(motor.homing.switch_position_mm);
     home_at_ = home_toward_min_ ? steps_down(home) : steps_up(home);
-    keep_limits_open(motor);
+    keep_open(motor, home_at_, limit_min_at_, limit_max_at_);
 
     const double tick_s = static_cast<double>(tick_ns) * 1e-9;
     max_acceleration_ = motor.plant.max_torque_accel_mm_s2 * steps_per_mm_ * tick_s * tick_s;
     max_gap_ = motor.plant.max_jump_mm_s * steps_per_mm_ * tick_s + std::sqrt(2 * max_acceleration_);
-}
-
-/// The places that the axis must reach, in steps since power-up. After homing the axis counts from its switch, so an
-/// end of travel is a number of whole steps from there.
-void Plant::keep_limits_open(const MotorConfig& motor) {
-    const auto counted = [&](double mm) {
-        return home_at_ + to_steps(motor, mm) - to_steps(motor, motor.homing.switch_position_mm);
-    };
-    const std::array<std::pair<double, std::int64_t>, 4> places{
-        {{start_mm_, 0},
-         {motor.homing.switch_position_mm, home_at_},
-         {motor.position_min_mm, counted(motor.position_min_mm)},
-         {motor.position_max_mm, counted(motor.position_max_mm)}}};
-    for (const auto& [mm, steps] : places) {
-        if (mm > motor.position_min_mm - motor.plant.travel_margin_mm) {
-            limit_min_at_ = std::min(limit_min_at_, steps - 1);
-        }
-        if (mm < motor.position_max_mm + motor.plant.travel_margin_mm) {
-            limit_max_at_ = std::max(limit_max_at_, steps + 1);
-        }
-    }
 }
 
 /// A pulse occurs where the commanded position crosses a half: half a step before its count, in its direction.

@@ -83,8 +83,13 @@ public:
     /// The pins of the switches are free: this is no motor's plant.
     void remove_switches() { has_switches_ = false; }
 
-    /// The true position of the motor, in whole steps since power-up.
-    std::int64_t encoder() const { return motor_; }
+    /// From now on the encoder counts the wrong way, as with exchanged channels.
+    void reverse_encoder() {
+        encoder_zero_ += encoder_sign_ * 2 * motor_;
+        encoder_sign_ = -encoder_sign_;
+    }
+    /// The true position of the motor, in whole steps since power-up, unless the encoder was reversed.
+    std::int64_t encoder() const { return encoder_zero_ + encoder_sign_ * motor_; }
     /// That of the slide.
     std::int64_t slide() const { return slide_; }
     double position_mm() const;
@@ -116,9 +121,6 @@ public:
 private:
     static constexpr Ticks kWindow{256};
 
-    /// A limit switch closes at least a step beyond every place that is within the limit switches, even if both are
-    /// within one step.
-    void keep_limits_open(const MotorConfig& motor);
     void evaluate(StepEdge edge);
     /// The motor turns by a step. The slide follows when the play is used up.
     void turn(std::int64_t step) {
@@ -168,6 +170,8 @@ private:
     double evaluated_place_ = 0;                // the position of the pulses then, in steps
     std::int64_t pulses_ = 0;                   // forward minus backward
     std::int64_t motor_ = 0;
+    std::int64_t encoder_sign_ = 1;
+    std::int64_t encoder_zero_ = 0;
     std::int64_t slide_ = 0;
     Play play_;
 };

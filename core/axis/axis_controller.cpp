@@ -41,8 +41,10 @@ void AxisController::look(const AxisInputs& inputs, AxisLoop& loop) {
         if (device_.is_present()) { lose_device(loop); }
         return;
     }
-    if (device_.appear()) { find_device(inputs, loop); }
+    const bool is_new = device_.appear();
+    if (is_new) { find_device(inputs, loop); }
     device_.see(inputs.device, is_resting());
+    encoder_.look(inputs.device, is_new);
     if (!is_resting() && device_.is_in_newest_run()) { observe_run(loop); }
     if (phase() == AxisPhase::Stop && is_resting()) { release(); }
     check_stop_inputs(loop);
@@ -141,12 +143,19 @@ void AxisController::check_stop_inputs(AxisLoop& loop) {
 }
 
 /// Compares encoder and count, also in a Fault that leaves the position known, because the slide may be pushed before
-/// the reset.
+/// the reset. An encoder that counts back is noticed before the axis is homed.
 void AxisController::check_encoder(AxisLoop& loop) {
-    if (!condition_.position.has_lost_steps(device_.status())) { return; }
-    const std::int64_t error = condition_.position.following_error(device_.status());
+    constexpr std::int64_t kUnhomed = 16;  // steps; when homed, the following error tells first
+    const AxisPosition& position = condition_.position;
+    if (position.has_lost_steps(device_.status())) {
+        const std::int64_t error = position.following_error(device_.status());
+        const FaultCode why = encoder_.counts_back(2) ? FaultCode::EncoderReversed : FaultCode::FollowingError;
+        condition_.position.lose();
+        return loop.fail(why, static_cast<std::uint64_t>(std::abs(error)));
+    }
+    if (position.homed() || condition_.phases.has_fault() || !encoder_.counts_back(kUnhomed)) { return; }
     condition_.position.lose();
-    loop.fail(FaultCode::FollowingError, static_cast<std::uint64_t>(std::abs(error)));
+    loop.fail(FaultCode::EncoderReversed);
 }
 
 void AxisController::receive(const AxisInputs& inputs, AxisLoop& loop) {

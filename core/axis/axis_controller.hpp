@@ -10,6 +10,7 @@
 #include "core/axis/state/axis_io.hpp"
 #include "core/axis/state/axis_loop.hpp"
 #include "core/axis/state/client_stops.hpp"
+#include "core/axis/state/encoder_watch.hpp"
 #include "core/axis/state/rest_outputs.hpp"
 #include "core/axis/state/speed_trend.hpp"
 #include "core/protocol/slot_gate.hpp"
@@ -75,6 +76,7 @@ private:
     OwnMoves own_;
     RestOutputs outputs_;
     SpeedTrend trend_;
+    EncoderWatch encoder_;
     SlotGate gate_;
     AxisOutputs out_;
 };

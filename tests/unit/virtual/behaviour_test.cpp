@@ -253,6 +253,24 @@ TEST_F(Rig, ALossOfStepsIsDetected) {
     EXPECT_EQ(fault(), FaultCode::FollowingError);
 }
 
+TEST_F(Rig, AnEncoderThatCountsTheWrongWayIsNoticedInTheFirstHoming) {
+    vm.device(1).plant().reverse_encoder();
+    ASSERT_EQ(ask(CommandKind::Home).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
+    EXPECT_EQ(fault(), FaultCode::EncoderReversed);
+    EXPECT_EQ(axis_fault(0), FaultCode::None);
+    EXPECT_FALSE(vm.axis_states()[1]->homed);
+}
+
+/// As after a kept position, or if the cable was changed between two jobs.
+TEST_F(Rig, AnEncoderThatCountsTheWrongWayIsNoticedInTheFirstMoveOfAHomedAxis) {
+    home();
+    vm.device(1).plant().reverse_encoder();
+    ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
+    EXPECT_EQ(fault(), FaultCode::EncoderReversed);
+}
+
 class RigWithoutSwitch : public Rig {
 protected:
     RigWithoutSwitch()

@@ -71,6 +71,8 @@ constexpr std::array kExplanations{
     Explanation{Cause::Push, FaultCode::HomeSwitchStuck},
     Explanation{Cause::Push, FaultCode::HomeSwitchUnsteady},
     Explanation{Cause::Push, FaultCode::FollowingError},
+    // It was pushed back twice as far as the motor had gone.
+    Explanation{Cause::Push, FaultCode::EncoderReversed},
     Explanation{Cause::Push, FaultCode::LimitHit},
     Explanation{Cause::DamagedFrame, FaultCode::DeviceFault},
     Explanation{Cause::DamagedFrame, FaultCode::FramesDiffer},
