@@ -33,7 +33,7 @@ TEST(SharedSlides, OneProcessSeesWhatAnotherPublishes) {
     auto second = SharedSlides::open(config);
     ASSERT_TRUE(first && second);
     const std::int64_t start = second->places()[1].count();
-    first->publish(1, 250);
+    first->publish(MotorIndex{1}, 250);
     EXPECT_EQ(second->places()[1].count(), start + 250);
 }
 
@@ -51,7 +51,7 @@ TEST(SharedSlides, TheLastOneThatClosesTheMemoryRemovesIt) {
 TEST(SharedSlides, AMachineThatIsUpAgainStartsWithSlidesAtTheirStarts) {
     const MachineConfig config = machine();
     const std::int64_t start = SharedSlides::open(config)->places()[0].count();
-    SharedSlides::open(config)->publish(0, 400);
+    SharedSlides::open(config)->publish(MotorIndex{0}, 400);
     EXPECT_EQ(SharedSlides::open(config)->places()[0].count(), start);
 }
 
