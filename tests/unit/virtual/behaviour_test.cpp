@@ -255,6 +255,7 @@ TEST_F(Rig, ALossOfStepsIsDetected) {
 
 TEST_F(Rig, AnEncoderThatCountsTheWrongWayIsNoticedInTheFirstHoming) {
     vm.device(1).plant().reverse_encoder();
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 1)) << describe();
     ASSERT_EQ(ask(CommandKind::Home).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
     EXPECT_EQ(fault(), FaultCode::EncoderReversed);

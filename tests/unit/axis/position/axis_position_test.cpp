@@ -1,7 +1,7 @@
 // The position of an axis is known after homing or from the kept position, and is kept once after each run.
 #include "core/axis/state/axis_position.hpp"
 
-#include "axis_parts.hpp"
+#include "tests/unit/axis/axis_parts.hpp"
 
 namespace lockstep {
 namespace {
