@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "core/step/tick_engine.hpp"
@@ -59,6 +61,8 @@ public:
     void identify(std::size_t motor) {
         windows_[motor].store(firmware::kIdentifyWord, windows_[motor].load(firmware::kIdentifyWord) + 1);
     }
+    /// The levels of the motor's outputs, each with the tick from which on they hold.
+    const auto& changes(std::size_t motor) const { return ports_[motor].changes(); }
     std::uint32_t light_requests() const { return board_words_.light_requests(); }
     DeviceDriver driver(std::size_t motor) { return DeviceDriver::attach(windows_[motor], kTwinTick_ns).value(); }
 
@@ -76,7 +80,8 @@ private:
         return 0;
     }
 
-    static constexpr firmware::Abilities kAbilities{.inputs = 3, .has_encoder = true, .can_enable = true};
+    static constexpr firmware::Abilities kAbilities{
+        .inputs = 3, .digital_outputs = 1, .has_encoder = true, .can_enable = true};
 
     std::array<PlantPort, kMotors> ports_{PlantPort(Plant(long_motor(), kTwinTick_ns)),
                                           PlantPort(Plant(long_motor(), kTwinTick_ns))};
@@ -158,6 +163,33 @@ TEST(LinkedBoard, MakesTheSameStepsOverAPoorLine) { expect_motion_over({.damaged
 /// Of all bytes 2.5 % are damaged, 2.5 % lost and 5 % late. All orders arrive within minutes, in parts.
 TEST(LinkedBoard, MakesTheSameStepsOverALineThatSpoilsOrDelaysOneByteOfTen) {
     expect_motion_over({.damaged = 25, .lost = 25, .late = 50}, 3, 200'000'000);
+}
+
+/// Each third step makes a pulse. The next step is further away than it lasts.
+TEST(FirmwareDevice, EndsEachPulseOfAPlaceAsManyTicksLaterAsTheSetupAsks) {
+    constexpr Ticks kPulse{10};
+    constexpr Piece kSteady{Ticks{20'000}, {std::numeric_limits<std::int64_t>::max() / 50}, {}};
+    LinkedBoard board({}, 1);
+    board.run(100'000);
+    ASSERT_TRUE(board.is_found());
+    DeviceDriver driver = board.driver(0);
+    ASSERT_TRUE(driver.set_up({.compare_outputs = 1, .compare_pulse = kPulse}));
+    ASSERT_TRUE(driver.apply(device::BeginRun{1}));
+    ASSERT_TRUE(driver.apply(device::LoadFrame{1, Tick{200'000}, true, {rest_position(0, false), {kSteady}, {}}}));
+    OutputTrack places;
+    places.body.append({Ticks{1}, ComparePosition{.next = 3, .every = 3, .pulses = 1000}});
+    ASSERT_TRUE(driver.apply(device::LoadOutputs{1, places}));
+    ASSERT_TRUE(driver.apply(device::Arm{1}));
+    board.run(250'000);
+    std::vector<std::pair<Tick, std::uint16_t>> expected;
+    std::int64_t count = 0;
+    tick_by_tick({Tick{200'000}, rest_position(0, false), kSteady}, [&](StepEdge step) {
+        if (++count % 3 != 0) { return; }
+        expected.emplace_back(step.tick, std::uint16_t{1});
+        expected.emplace_back(step.tick + kPulse, std::uint16_t{0});
+    });
+    EXPECT_GT(expected.size(), 100U);
+    EXPECT_TRUE(board.changes(0) == expected) << board.changes(0).size() << " changes, not " << expected.size();
 }
 
 TEST(LinkedBoard, IsAskedForItsLightOnceForEachNumber) {

@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "sim_fpga/device.hpp"
 #include "sim_fpga/firmware/device/device.hpp"
@@ -27,7 +29,12 @@ public:
         }
         return made;
     }
-    void show(std::int64_t /*tick*/, std::uint16_t levels) override { shown_ = levels; }
+    void show(std::int64_t tick, std::uint16_t levels) override {
+        shown_ = levels;
+        changes_.emplace_back(Tick{tick}, levels);
+    }
+    /// The levels of digital outputs, each with the tick from which on they hold.
+    const std::vector<std::pair<Tick, std::uint16_t>>& changes() const { return changes_; }
     void show_analog(std::size_t channel, const firmware::Ramp& ramp) override { ramps_[channel] = ramp; }
     std::uint16_t shown() const { return shown_; }
     /// What an analog output shows after this tick.
@@ -38,6 +45,7 @@ public:
 private:
     Plant plant_;
     std::uint16_t shown_ = 0;
+    std::vector<std::pair<Tick, std::uint16_t>> changes_;
     std::array<firmware::Ramp, firmware::kMostAnalog> ramps_;
 };
 
