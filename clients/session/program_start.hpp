@@ -10,7 +10,7 @@
 namespace lockstep {
 
 struct NamedPlace {
-    std::size_t axis = 0;
+    AxisIndex axis;
     double mm = 0;
 };
 /// Parses "X=10,Y=5", places within the axes' travel. The error says what is wrong, with an example.

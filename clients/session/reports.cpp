@@ -83,9 +83,9 @@ proto::FaultReport motor_fault(FaultCode fault, const Kinematics& kinematics, Mo
 
 std::optional<proto::FaultReport> fault_of(const MachineState& state, const MachineConfig& machine) {
     if (state.fault == FaultCode::None) { return std::nullopt; }
-    const bool has_axis = state.fault_axis && *state.fault_axis < motor_count(machine);
-    if (!has_axis) { return fault_report(state.fault, ""); }
-    const MotorIndex motor{*state.fault_axis};
+    const bool has_motor = state.fault_motor && *state.fault_motor < motor_count(machine);
+    if (!has_motor) { return fault_report(state.fault, ""); }
+    const MotorIndex motor = *state.fault_motor;
     proto::FaultReport report = motor_fault(state.fault, Kinematics(machine), motor);
     name_inputs(machine, motor, report);
     return report;

@@ -171,7 +171,7 @@ SimulationResult Simulation::finish(SimulationResult result) {
     recorder_.finish();
     if (const auto& state = vm_.state(); state && state->fault != FaultCode::None) {
         result.fault = state->fault;
-        if (state->fault_axis) { result.fault_motor = MotorIndex{*state->fault_axis}; }
+        result.fault_motor = state->fault_motor;
     } else if (feed_ && state && state->job_fault != FaultCode::None) {
         result.fault = state->job_fault;
     }

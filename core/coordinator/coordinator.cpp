@@ -224,7 +224,7 @@ void Coordinator::report(CoordinatorLoop& loop) const {
                             .tick = loop.now,
                             .phase = phase(),
                             .fault = fault.code,
-                            .fault_axis = fault.faulty_axis(),
+                            .fault_motor = fault.faulty_motor(),
                             .motors_present = axes_.present(loop.slot),
                             .config_hash = config_hash_,
                             .lease = std::move(old.lease),

@@ -260,7 +260,7 @@ std::optional<FitFailure> FramePlanner::fit_body(PathFrame& frame, FrameCursor& 
     }
     const auto failure = fit_.fit(path_, frame.ticks, setup_.body_pieces, {points.begin(), points.size()});
     if (failure) { return failure; }
-    for (std::size_t i = 0; i < setup_.motors(); ++i) {
+    for (const MotorIndex i : motor_indices(setup_.motors())) {
         for (const Piece& piece : fit_.pieces(i)) { frame.axes[i].body.append(piece); }
         if (frame.last && !may_rest(points[i], setup_.limits[i])) { return FitFailure{frame.ticks}; }
     }
@@ -276,7 +276,7 @@ bool FramePlanner::fit_tail(PathFrame& frame, const FrameCursor& from) {
     if (tail_.phases().empty() || end <= Ticks{}) { return true; }
     auto points = from.points;
     if (fit_.fit(tail_, end, kMaxTailPieces, {points.begin(), points.size()})) { return false; }
-    for (std::size_t i = 0; i < setup_.motors(); ++i) {
+    for (const MotorIndex i : motor_indices(setup_.motors())) {
         for (const Piece& piece : fit_.pieces(i)) { frame.axes[i].tail.append(piece); }
         if (!may_rest(points[i], setup_.limits[i])) { return false; }
     }

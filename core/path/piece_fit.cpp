@@ -67,7 +67,7 @@ PieceFit::FitRange PieceFit::range(Ticks begin, Ticks end) const {
     return s;
 }
 
-double PieceFit::acceleration(const FitRange& s, std::size_t i) const {
+double PieceFit::acceleration(const FitRange& s, MotorIndex i) const {
     const double before = path_->phases()[s.first].velocity(i, to_double(s.begin));
     const double after = path_->phases()[s.last].velocity(i, to_double(s.end));
     const AxisLimits& axis = setup_.limits[i];
@@ -77,7 +77,7 @@ double PieceFit::acceleration(const FitRange& s, std::size_t i) const {
 }
 
 /// In each phase the path is nearly a parabola, so the ends and the middles of the phases are compared.
-bool PieceFit::is_close(const FitRange& s, std::size_t i, double from, double v0, double a) const {
+bool PieceFit::is_close(const FitRange& s, MotorIndex i, double from, double v0, double a) const {
     const auto& phases = path_->phases();
     const double begin = to_double(s.begin);
     const double ticks = to_double(s.end - s.begin);
@@ -107,7 +107,7 @@ const PathPhase& PieceFit::phase_at(const FitRange& s) const {
 
 /// Whether the axis reverses within the piece with more acceleration than the smaller of its limits. A part of such a
 /// piece would break a limit, so a tail that contains it could not be cut.
-bool PieceFit::is_hard_reversal(std::size_t i, double v0, double a, double ticks) const {
+bool PieceFit::is_hard_reversal(MotorIndex i, double v0, double a, double ticks) const {
     const double v1 = v0 + a * ticks;
     const double one_tick = std::abs(a);
     const AxisLimits& axis = setup_.limits[i];
@@ -121,7 +121,7 @@ bool PieceFit::try_piece(Ticks begin, Ticks end, std::span<const MotionPoint> po
     const PathPhase& last = path_->phases()[s.last];
     const PathPhase& first = path_->phases()[s.first];
     const PathPhase& at_end = phase_at(s);
-    for (std::size_t i = 0; i < setup_.motors(); ++i) {
+    for (const MotorIndex i : motor_indices(setup_.motors())) {
         const double a = acceleration(s, i);
         const Position to = position_of(at_end.place(i, to_double(end)));
         const double v0 = (to - points[i].position).as_steps() / ticks - a * ticks / 2;
@@ -132,7 +132,7 @@ bool PieceFit::try_piece(Ticks begin, Ticks end, std::span<const MotionPoint> po
         if (tolerance_ <= 1 && is_hard_reversal(i, v0, a, ticks)) { return false; }
         try_pieces_[i] = solve_piece(points[i].position, to, end - begin, a);
     }
-    for (std::size_t i = 0; i < setup_.motors(); ++i) {
+    for (const MotorIndex i : motor_indices(setup_.motors())) {
         try_points_[i] = points[i];
         if (check_pieces({&try_pieces_[i], 1}, setup_.limits[i], try_points_[i]) != FaultCode::None) { return false; }
     }
@@ -199,7 +199,7 @@ std::optional<FitFailure> PieceFit::fit(const TimedPath& path, Ticks end, std::s
         }
         if (ticks == Ticks{}) { return FitFailure{now}; }
         if (made == most) { return FitFailure{now, true}; }
-        for (std::size_t i = 0; i < setup_.motors(); ++i) {
+        for (const MotorIndex i : motor_indices(setup_.motors())) {
             points[i] = points_[i];
             fitted_[i].push_back(pieces_[i]);
         }

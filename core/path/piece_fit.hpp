@@ -28,7 +28,7 @@ public:
     /// Fits at most `most` pieces to the ticks [0, end) of `path`, and moves `points` to their end.
     std::optional<FitFailure> fit(const TimedPath& path, Ticks end, std::size_t most, std::span<MotionPoint> points);
     /// The pieces of an axis that fit() has found.
-    const std::vector<Piece>& pieces(std::size_t axis) const { return fitted_[axis]; }
+    const std::vector<Piece>& pieces(MotorIndex motor) const { return fitted_[motor]; }
 
 private:
     struct FitRange {
@@ -40,10 +40,10 @@ private:
 
     Ticks next_break(Ticks now, Ticks end) const;
     FitRange range(Ticks begin, Ticks end) const;
-    bool is_close(const FitRange& range, std::size_t axis, double from, double v0, double a) const;
+    bool is_close(const FitRange& range, MotorIndex motor, double from, double v0, double a) const;
     const PathPhase& phase_at(const FitRange& range) const;
-    double acceleration(const FitRange& range, std::size_t axis) const;
-    bool is_hard_reversal(std::size_t i, double v0, double a, double ticks) const;
+    double acceleration(const FitRange& range, MotorIndex motor) const;
+    bool is_hard_reversal(MotorIndex i, double v0, double a, double ticks) const;
     bool try_piece(Ticks begin, Ticks end, std::span<const MotionPoint> points);
     Ticks longest(Ticks now, Ticks limit, std::span<const MotionPoint> points);
     Ticks longest_any(Ticks now, Ticks limit, std::span<const MotionPoint> points);

@@ -36,11 +36,11 @@ bool SpeedWindow::may_rise(std::size_t piece) const {
     beside.begin = joints().joint(beside.before, &turned.shape, beside.from);
     beside.end = joint_at_end(k);
     joints().charge(turned, beside);
-    const auto is_paid = [&](std::size_t axis, const JoinedPiece& as) {
-        return as.is_charged && as.charged.begin()[axis] != as.shape.bend.begin()[axis];
+    const auto is_paid = [&](RowIndex row, const JoinedPiece& as) {
+        return as.is_charged && as.charged.begin()[row] != as.shape.bend.begin()[row];
     };
-    for (std::size_t axis = 0; axis < setup_.rows(); ++axis) {
-        if (is_paid(axis, turned) && !is_paid(axis, begun)) { return false; }
+    for (const RowIndex row : row_indices(setup_.rows())) {
+        if (is_paid(row, turned) && !is_paid(row, begun)) { return false; }
     }
     return true;
 }

@@ -113,7 +113,7 @@ struct Frame {
     bool operator==(const Frame&) const = default;
 
     /// nullptr: the motor's device has no outputs.
-    const OutputTrack* outputs_of(std::size_t motor) const {
+    const OutputTrack* outputs_of(MotorIndex motor) const {
         for (const MotorOutputs& of : outputs) {
             if (of.motor == motor) { return &of.track; }
         }
@@ -283,7 +283,7 @@ struct MachineState {
     Tick tick;
     MachinePhase phase = MachinePhase::Waiting;
     FaultCode fault = FaultCode::None;
-    std::optional<std::uint32_t> fault_axis;  // if `fault` is of an axis
+    std::optional<MotorIndex> fault_motor;  // if `fault` is of one
     Epoch epoch = 0;
     FrameNumber sent = 0;                   // the highest frame sent
     std::optional<FrameNumber> veto;        // the coordinator's own, of this epoch

@@ -16,9 +16,9 @@ MachineView view_of(const MachineConfig& machine, const MachineState& state, con
     view.is_received = true;
     view.phase = state.phase;
     view.fault = state.fault;
-    if (state.fault != FaultCode::None && state.fault_axis && *state.fault_axis < motor_count(machine)) {
+    if (state.fault != FaultCode::None && state.fault_motor && *state.fault_motor < motor_count(machine)) {
         const Kinematics kinematics(machine);
-        const MotorIndex motor{*state.fault_axis};
+        const MotorIndex motor = *state.fault_motor;
         view.fault_place = kinematics.label(motor);
         view.is_fault_of_board = kinematics.motors()[motor].is_board();
     }

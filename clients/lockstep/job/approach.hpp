@@ -12,7 +12,7 @@ namespace lockstep {
 
 /// An axis that leaves the work first, and a position clear of the work.
 struct Lift {
-    std::size_t axis = 0;
+    AxisIndex axis;
     double mm = 0;
     bool is_asked = false;  // the user named it: it goes exactly there; else it stays if it is farther from the work
 };

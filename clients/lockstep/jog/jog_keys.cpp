@@ -37,7 +37,7 @@ std::size_t length_of_key(std::string_view bytes) {
 
 }  // namespace
 
-std::string_view JogKeys::keys_of(std::size_t axis) {
+std::string_view JogKeys::keys_of(AxisIndex axis) {
     return axis < kAxisKeys.size() ? kAxisKeys[axis].name : std::string_view{};
 }
 
@@ -77,7 +77,7 @@ void JogKeys::change_speed(bool faster) {
     speed_percent_ = std::clamp(faster ? speed_percent_ * 2 : speed_percent_ / 2, kSlowest_percent, kFastest_percent);
 }
 
-double JogKeys::speed_mm_s(std::size_t axis) const {
+double JogKeys::speed_mm_s(AxisIndex axis) const {
     const AxisConfig& config = machine_.axes[axis];
     return std::min(usual_jog_speed(config) * speed_percent_ / 100, config.max_velocity_mm_s);
 }

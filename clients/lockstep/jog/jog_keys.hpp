@@ -41,10 +41,10 @@ public:
     bool take_stop() { return std::exchange(must_stop_, false); }
     bool must_quit() const { return must_quit_; }
     /// The axis's usual speed times the chosen percentage, at most its maximum velocity.
-    double speed_mm_s(std::size_t axis) const;
+    double speed_mm_s(AxisIndex axis) const;
 
     /// The keys of an axis for minus and plus, "left, right"; empty if it has none.
-    static std::string_view keys_of(std::size_t axis);
+    static std::string_view keys_of(AxisIndex axis);
 
 private:
     struct Direction {

@@ -35,7 +35,7 @@ json own_alarm(const char* code, const FaultPlace& place, const std::string& cau
 }
 
 /// `motor`: by its number in the machine.
-FaultPlace place_of(std::size_t motor, const Snapshot& snapshot, const MachineConfig& machine) {
+FaultPlace place_of(MotorIndex motor, const Snapshot& snapshot, const MachineConfig& machine) {
     const MotorConfig config = motors_of(machine)[motor];
     const auto apart = std::ranges::find(snapshot.motors, config.name, &MotorSnapshot::name);
     if (apart != snapshot.motors.end()) { return place_of(*apart); }
@@ -53,8 +53,8 @@ void add_once(json& alarms, json alarm) {
 void add_faults(const Snapshot& snapshot, const MachineConfig& machine, json& alarms) {
     if (snapshot.machine && snapshot.machine->value.fault != FaultCode::None) {
         const MachineState& state = snapshot.machine->value;
-        const bool has_axis = state.fault_axis && *state.fault_axis < motor_count(machine);
-        const FaultPlace place = has_axis ? place_of(*state.fault_axis, snapshot, machine) : FaultPlace{};
+        const bool has_motor = state.fault_motor && *state.fault_motor < motor_count(machine);
+        const FaultPlace place = has_motor ? place_of(*state.fault_motor, snapshot, machine) : FaultPlace{};
         add_once(alarms, as_alarm(fault_json(state.fault, place), "fault"));
     }
     for (const Served& served : served_of(snapshot, machine)) {

@@ -80,7 +80,7 @@ json never_received() {
 }
 
 /// Whose fault it is: the axis's, or that of the first of its motors which has it.
-FaultPlace place_of_fault(const Snapshot& snapshot, std::size_t axis, const std::string& name,
+FaultPlace place_of_fault(const Snapshot& snapshot, AxisIndex axis, const std::string& name,
                           FaultCode AxisState::*fault) {
     if (snapshot.axes[axis].is_process) { return {.axis = name, .motor = {}}; }
     for (const MotorSnapshot& motor : snapshot.motors) {
@@ -120,7 +120,7 @@ json shown_json(const Snapshot& snapshot, const Shown& shown, const MachineConfi
             {"health", health_json(snapshot, seen, machine)}};
 }
 
-json axis_json(const Snapshot& snapshot, std::size_t i, const MachineConfig& machine) {
+json axis_json(const Snapshot& snapshot, AxisIndex i, const MachineConfig& machine) {
     if (!snapshot.axes[i].state) { return never_received(); }
     const AxisConfig& axis = machine.axes[i];
     return shown_json(snapshot,
@@ -153,7 +153,7 @@ double rounded(double value, int digits) {
 
 json axes_document(const Snapshot& snapshot, const MachineConfig& machine) {
     json axes = json::object();
-    for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
+    for (const AxisIndex i : axis_indices(snapshot.axes.size())) {
         axes[machine.axes[i].name] = axis_json(snapshot, i, machine);
     }
     return axes;

@@ -22,10 +22,8 @@ struct MachineFault {
     FaultCode code = FaultCode::None;
     MotorIndex motor;
 
-    /// The axis of the fault, if it is of an axis.
-    std::optional<std::uint32_t> faulty_axis() const {
-        return is_of_an_axis(code) ? std::optional(static_cast<std::uint32_t>(motor)) : std::nullopt;
-    }
+    /// The motor of the fault, if it is of one.
+    std::optional<MotorIndex> faulty_motor() const { return is_of_an_axis(code) ? std::optional(motor) : std::nullopt; }
 };
 
 namespace activity {

@@ -17,13 +17,13 @@ PathLoad::PathLoad(std::span<const std::int64_t> at) : counts_(at.begin(), at.en
 
 void PathLoad::begin() { std::ranges::fill(slopes_, 0.0); }
 
-void PathLoad::note_place(std::size_t axis, double place) {
+void PathLoad::note_place(RowIndex row, double place) {
     const auto count = static_cast<std::int64_t>(std::floor(place + 0.5));
-    AxisLoad& load = axes_[axis];
-    load.steps += std::abs(count - counts_[axis]);
+    AxisLoad& load = axes_[row];
+    load.steps += std::abs(count - counts_[row]);
     load.least = std::min(load.least, count);
     load.greatest = std::max(load.greatest, count);
-    counts_[axis] = count;
+    counts_[row] = count;
 }
 
 /// Notes the place where each axis turns back, if it does, and the end.
@@ -48,8 +48,8 @@ void PathLoad::note_joint(const JoinedPiece& next, double v) {
     }
 }
 
-void PathLoad::note_jump(std::size_t axis, double slope, double v) {
-    raise(axes_[axis].peak_jump, std::abs(slope - slopes_[axis]) * v);
+void PathLoad::note_jump(RowIndex row, double slope, double v) {
+    raise(axes_[row].peak_jump, std::abs(slope - slopes_[row]) * v);
 }
 
 void PathLoad::pass(const PassedInterval& passed, bool is_first) {
@@ -97,7 +97,7 @@ void PathLoad::note_curved(const PassedInterval& passed) {
 }
 
 void PathLoad::end(double v) {
-    for (std::size_t i = 0; i < axes_.size(); ++i) { note_jump(i, 0, v); }
+    for (const RowIndex i : row_indices(axes_.size())) { note_jump(i, 0, v); }
 }
 
 }  // namespace lockstep

@@ -41,15 +41,15 @@ public:
     /// The path ends at rest; `v` is the speed along it before the last jump.
     void end(double v);
     /// Adds steps of turns that are not passed.
-    void add_steps(std::size_t axis, std::int64_t steps) { axes_[axis].steps += steps; }
+    void add_steps(RowIndex row, std::int64_t steps) { axes_[row].steps += steps; }
 
     const std::vector<AxisLoad>& axes() const { return axes_; }
 
 private:
-    void note_place(std::size_t axis, double place);
+    void note_place(RowIndex row, double place);
     void note_piece(const Quadratic& shape);
     void note_joint(const JoinedPiece& next, double v);
-    void note_jump(std::size_t axis, double slope, double v);
+    void note_jump(RowIndex row, double slope, double v);
     void note_straight(const PassedInterval& passed);
     void note_curved(const PassedInterval& passed);
 

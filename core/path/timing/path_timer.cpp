@@ -142,8 +142,8 @@ void PathTimer::skip_turns() {
     const int turns = geometry_.turns_that_repeat() - waiting;
     if (turns <= 0 || std::abs(end.v - begin.v) > kSameSpeed * end.v) { return; }
     ticks_ += turns * (end.ticks - begin.ticks);
-    load_->add_steps(geometry_.arc().first, turns * (end.first_steps - begin.first_steps));
-    load_->add_steps(geometry_.arc().second, turns * (end.second_steps - begin.second_steps));
+    load_->add_steps(RowIndex{geometry_.arc().first}, turns * (end.first_steps - begin.first_steps));
+    load_->add_steps(RowIndex{geometry_.arc().second}, turns * (end.second_steps - begin.second_steps));
     geometry_.skip_turns(turns);
 }
 

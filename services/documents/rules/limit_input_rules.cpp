@@ -12,7 +12,7 @@ namespace lockstep {
 namespace {
 
 /// The device of the axis's only motor knows the axis's direction and stops it.
-bool moves_alone(const MotorConfig& motor, const MachineConfig& machine, std::size_t axis) {
+bool moves_alone(const MotorConfig& motor, const MachineConfig& machine, AxisIndex axis) {
     return motor.axis == axis && motor.moves_one_axis && machine.axes[axis].motors.size() < 2;
 }
 
@@ -52,17 +52,16 @@ void check_limit_input(const MachineConfig& machine, const InputConfig& input, c
                         input.name, input.motor));
         return;
     }
-    const auto axis = std::ranges::find(machine.axes, input.axis, &AxisConfig::name);
-    problems.require(axis != machine.axes.end(), key,
+    const auto axis = machine.axis_named(input.axis);
+    problems.require(axis.has_value(), key,
                      fmt::format("{} is \"{}\"; it must be the name of an axis of the machine", key, input.axis));
-    if (axis == machine.axes.end()) { return; }
-    const bool is_own =
-        motor != nullptr && moves_alone(*motor, machine, static_cast<std::size_t>(axis - machine.axes.begin()));
+    if (!axis) { return; }
+    const bool is_own = motor != nullptr && moves_alone(*motor, machine, *axis);
     problems.require(!is_own, key,
                      fmt::format("{} is given, but the device of motor {} stops axis {} by itself, at the next step; "
                                  "remove it",
                                  key, input.motor, input.axis));
-    if (!is_own) { check_room(machine, *axis, input, at, problems); }
+    if (!is_own) { check_room(machine, machine.axes[*axis], input, at, problems); }
 }
 
 }  // namespace lockstep

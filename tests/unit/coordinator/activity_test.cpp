@@ -89,14 +89,14 @@ TEST_F(Activities, TheFaultOfAMotionIsKeptUntilItsReset) {
     machine.abort({FaultCode::AxisLost, MotorIndex{1}}, out);
     EXPECT_EQ(machine.fault().code, FaultCode::AxisLost);
     become(E::Fails, activity::InFault{machine.fault()});
-    EXPECT_EQ(machine.fault().faulty_axis(), 1u);
+    EXPECT_EQ(machine.fault().faulty_motor(), 1u);
     become(E::Reset, activity::Waiting{});
     EXPECT_FALSE(machine.has_fault());
 }
 
 TEST_F(Activities, AFaultOfTheWholeMachineNamesNoAxis) {
-    EXPECT_EQ((MachineFault{FaultCode::FrameLate, MotorIndex{1}}.faulty_axis()), std::nullopt);
-    EXPECT_EQ(MachineFault{}.faulty_axis(), std::nullopt);
+    EXPECT_EQ((MachineFault{FaultCode::FrameLate, MotorIndex{1}}.faulty_motor()), std::nullopt);
+    EXPECT_EQ(MachineFault{}.faulty_motor(), std::nullopt);
 }
 
 TEST_F(Activities, AJobInAPauseIsTheInnerOne) {

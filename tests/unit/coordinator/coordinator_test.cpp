@@ -70,7 +70,7 @@ TEST_F(CoordinatorAlone, AStopThatAnAxisDoesNotFollowEndsInAFaultThatNamesIt) {
     ASSERT_EQ(coordinator_.phase(), MachinePhase::Stopping);
     ASSERT_TRUE(reaches(MachinePhase::Fault, 300)) << "frames, tail, and twice the silence";
     EXPECT_EQ(state_.fault, FaultCode::NotAtRest);
-    EXPECT_EQ(state_.fault_axis, 0u);
+    EXPECT_EQ(state_.fault_motor, 0u);
     EXPECT_EQ(state_.outcome, JobOutcome::Failed);
     axis_.at_rest = true;
     axis_.identity = 6;  // its process is restarted
@@ -220,7 +220,7 @@ TEST_F(StandbyAlone, FailsWhereNoFrameLeadsFromWhereTheAxisRests) {
     for (int i = 0; i < 300 && standby_.phase() != MachinePhase::Fault; ++i) { pass(false, true); }
     EXPECT_TRUE(doubts_.empty());
     EXPECT_EQ(state_.fault, FaultCode::FrameBeyondLimits);
-    EXPECT_EQ(state_.fault_axis, 0u);
+    EXPECT_EQ(state_.fault_motor, 0u);
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ TEST_F(Running, AFaultInMotionStopsOnThePathBeforeTheMachineIsInFault) {
     ask([&](auto& l) { jobs.fail({FaultCode::AxisLost, MotorIndex{1}}, l); });
     EXPECT_EQ(jobs.activity().phase(), MachinePhase::Stopping);
     EXPECT_TRUE(jobs.activity().is<activity::OnPath>());
-    EXPECT_EQ(jobs.activity().fault().faulty_axis(), 1u);
+    EXPECT_EQ(jobs.activity().fault().faulty_motor(), 1u);
 }
 
 TEST_F(Running, AFaultAtRestEndsInFaultAtOnce) {

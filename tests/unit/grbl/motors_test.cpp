@@ -45,7 +45,7 @@ MachineView view_at_limit(const MachineConfig& machine, std::size_t motor) {
     MachineState state;
     state.phase = MachinePhase::Fault;
     state.fault = FaultCode::LimitHit;
-    state.fault_axis = motor;
+    state.fault_motor = MotorIndex{motor};
     return view_of(machine, state, by_axis, std::vector<double>(axes.size()));
 }
 

@@ -34,7 +34,7 @@ TEST(Messages, OfAMachineThatNobodyFilledInSayNothing) {
     const MachineState machine;
     EXPECT_EQ(machine.stamp, 0);
     EXPECT_EQ(machine.fault, FaultCode::None);
-    EXPECT_EQ(machine.fault_axis, std::nullopt);
+    EXPECT_EQ(machine.fault_motor, std::nullopt);
     EXPECT_EQ(machine.epoch, 0u);
     EXPECT_EQ(machine.sent, 0u);
     EXPECT_EQ(machine.job, 0u);

@@ -49,7 +49,7 @@ TEST(InputReport, SaysInWordsWhatClosedInputsMean) {
 }
 
 TEST(MachineFault, NamesTheInputOfAnEmergencyStop) {
-    const auto fault = fault_of({.fault = FaultCode::EmergencyStopInput, .fault_axis = 1}, with_inputs());
+    const auto fault = fault_of({.fault = FaultCode::EmergencyStopInput, .fault_motor = MotorIndex{1}}, with_inputs());
     EXPECT_EQ(fault->axis(), "Y");
     EXPECT_THAT(fault->cause(), HasSubstr(": input stop of motor Y"));
     EXPECT_THAT(fault->remedy(), HasSubstr("release the emergency stop"));
@@ -58,7 +58,7 @@ TEST(MachineFault, NamesTheInputOfAnEmergencyStop) {
 TEST(MachineFault, NamesTheInputOfATouchInMotion) {
     MachineConfig machine = with_inputs();
     machine.inputs.push_back({.name = "tip", .motor = "X", .channel = 6, .use = InputUse::Probe, .number = 0});
-    const auto fault = fault_of({.fault = FaultCode::TouchInMotion, .fault_axis = 0}, machine);
+    const auto fault = fault_of({.fault = FaultCode::TouchInMotion, .fault_motor = MotorIndex{0}}, machine);
     EXPECT_THAT(fault->cause(), HasSubstr(": input tip of motor X"));
     EXPECT_THAT(fault->remedy(), HasSubstr("lockstep reset"));
 }

@@ -189,7 +189,7 @@ TEST(StatusText, ShowsThatNothingIsReceived) {
 }
 
 TEST(MachineFault, NamesAnAxisOnlyIfItIsOneAxiss) {
-    const auto limit = fault_of({.fault = FaultCode::LimitHit, .fault_axis = 1}, two_axes());
+    const auto limit = fault_of({.fault = FaultCode::LimitHit, .fault_motor = MotorIndex{1}}, two_axes());
     EXPECT_EQ(limit->axis(), "Y");
     const auto estop = fault_of({.fault = FaultCode::EmergencyStopped}, two_axes());
     EXPECT_FALSE(estop->has_axis());
@@ -197,11 +197,11 @@ TEST(MachineFault, NamesAnAxisOnlyIfItIsOneAxiss) {
 }
 
 TEST(MachineFault, NamesTheMotorIfItIsNotTheOnlyOneOfAnAxis) {
-    const auto limit = fault_of({.fault = FaultCode::LimitHit, .fault_axis = 2}, gantry());
+    const auto limit = fault_of({.fault = FaultCode::LimitHit, .fault_motor = MotorIndex{2}}, gantry());
     EXPECT_EQ(limit->motor(), "Y2");
     EXPECT_FALSE(limit->has_axis());
     EXPECT_EQ(fault_text(*limit).substr(0, 17), "fault: motor Y2: ");
-    EXPECT_EQ(fault_of({.fault = FaultCode::LimitHit, .fault_axis = 0}, gantry())->axis(), "X");
+    EXPECT_EQ(fault_of({.fault = FaultCode::LimitHit, .fault_motor = MotorIndex{0}}, gantry())->axis(), "X");
 }
 
 TEST(ProgressText, ShowsPercentLineAndRemainingTime) {

@@ -287,7 +287,7 @@ TEST_F(RigWithoutSwitch, HomingWithoutASwitchIsAFault) {
     ASSERT_EQ(ask(CommandKind::Home).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Fault, 30)) << describe();
     EXPECT_EQ(fault(), FaultCode::HomeSwitchNotFound);
-    EXPECT_EQ(vm.state()->fault_axis, 0u);
+    EXPECT_EQ(vm.state()->fault_motor, 0u);
 }
 
 class RigOnSwitch : public Rig {

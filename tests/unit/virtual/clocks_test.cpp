@@ -139,7 +139,7 @@ TEST_F(OwnClocks, LostDeviceIsNamedAsTheCause) {
         vm.schedule({.kind = kind, .process = 1, .at = vm.now(), .lasts = {2'000'000}});
         ASSERT_TRUE(reaches(MachinePhase::Fault, 1)) << describe();
         EXPECT_EQ(fault(), FaultCode::DeviceLost) << describe();
-        EXPECT_EQ(vm.state()->fault_axis, 1U);
+        EXPECT_EQ(vm.state()->fault_motor, 1U);
         wait(4);
         ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
         wait(1);

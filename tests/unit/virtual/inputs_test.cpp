@@ -60,7 +60,7 @@ TEST_F(Inputs, AnEmergencyStopCeasesPulsesOfItsDeviceAfterItsDebounceAndOfAllOth
     EXPECT_LE(last_step[kY], pressed + Ticks{1000}) << "the debounce is 1 ms";
     EXPECT_LE(last_step[kX], pressed + Ticks{1000} + vm.machine().slot_ticks() * 4);
     EXPECT_EQ(fault(), FaultCode::EmergencyStopInput);
-    EXPECT_EQ(vm.state()->fault_axis, kY) << "the fault is of the motor whose device has the input";
+    EXPECT_EQ(vm.state()->fault_motor, kY) << "the fault is of the motor whose device has the input";
     EXPECT_EQ(axis_fault(kY), FaultCode::EmergencyStopInput);
     EXPECT_EQ(axis_fault(kX), FaultCode::EmergencyStopped);
 }

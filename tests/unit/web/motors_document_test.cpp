@@ -67,7 +67,7 @@ TEST(MotorsDocument, HasAFaultOfAMotorUnderItsOwnName) {
     Snapshot snapshot = gantry_at_rest();
     snapshot.machine->value.phase = MachinePhase::Fault;
     snapshot.machine->value.fault = FaultCode::LimitHit;
-    snapshot.machine->value.fault_axis = 2;
+    snapshot.machine->value.fault_motor = MotorIndex{2};
     snapshot.motors[1].seen.state->value.fault = FaultCode::LimitHit;
     snapshot.axes[1].state->value.fault = FaultCode::LimitHit;
     const Json json = of_gantry(snapshot);

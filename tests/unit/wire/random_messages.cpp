@@ -130,7 +130,7 @@ MachineState RandomMessages::machine_state() {
             .tick = {far()},
             .phase = static_cast<MachinePhase>(index(10)),
             .fault = machine_fault,
-            .fault_axis = is_of_an_axis(machine_fault) ? std::optional(index(kMaxAxes)) : std::nullopt,
+            .fault_motor = is_of_an_axis(machine_fault) ? std::optional(MotorIndex{index(kMaxAxes)}) : std::nullopt,
             .epoch = bits(),
             .sent = bits(),
             .veto = maybe(bits()),

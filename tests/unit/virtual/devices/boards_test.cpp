@@ -102,7 +102,7 @@ TEST_F(Boards, ThatFallSilentBringTheMachineToRestAndNeedNoHomingAfterwards) {
     kill_board(Ticks{1'000'000});
     ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
     EXPECT_EQ(fault(), FaultCode::AxisLost);
-    EXPECT_EQ(vm.state()->fault_axis, kIo);
+    EXPECT_EQ(vm.state()->fault_motor, kIo);
     wait(1.5);
     EXPECT_FALSE(is_air_on()) << "its device heard nothing from its process for half a second";
     ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
@@ -122,7 +122,7 @@ TEST_F(Boards, VetoAFrameThatTheyDoNotHold) {
     wait(0.5);
     vm.schedule({.kind = VirtualFault::Kind::DamageFrame, .process = kIo, .at = vm.now(), .lasts = {1}});
     ASSERT_TRUE(reaches(MachinePhase::Fault, 5)) << describe();
-    EXPECT_EQ(vm.state()->fault_axis, kIo);
+    EXPECT_EQ(vm.state()->fault_motor, kIo);
 }
 
 TEST_F(Boards, StopTheWholeMachineByTheirInputAndAreReadyAfterReleaseAndReset) {
@@ -131,7 +131,7 @@ TEST_F(Boards, StopTheWholeMachineByTheirInputAndAreReadyAfterReleaseAndReset) {
     ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
     wait(0.5);
     EXPECT_EQ(fault(), FaultCode::EmergencyStopInput);
-    EXPECT_EQ(vm.state()->fault_axis, kIo);
+    EXPECT_EQ(vm.state()->fault_motor, kIo);
     EXPECT_FALSE(is_air_on());
     const Reply refused = ask(CommandKind::Reset);
     EXPECT_THAT(refused.text, HasSubstr("input stop of board IO is closed; release it, then reset"));

@@ -33,7 +33,7 @@ protected:
     void expect_device_lost() {
         ASSERT_TRUE(reaches(MachinePhase::Fault, kSoon)) << describe();
         EXPECT_EQ(fault(), FaultCode::DeviceLost) << describe();
-        EXPECT_EQ(vm.state()->fault_axis, kY);
+        EXPECT_EQ(vm.state()->fault_motor, kY);
         for (const auto& axis : vm.axis_states()) { EXPECT_TRUE(axis->at_rest); }
         EXPECT_FALSE(vm.axis_states()[kY]->homed);
     }

@@ -106,7 +106,7 @@ TEST_F(LateDevices, OneThatNoLongerAnswersIsLostAndIsUsedAgainAfterAReset) {
     vm.schedule({.kind = VirtualFault::Kind::StopDevice, .process = kY, .at = vm.now(), .lasts = {2'000'000}});
     ASSERT_TRUE(reaches(MachinePhase::Fault, 1)) << describe();
     EXPECT_EQ(fault(), FaultCode::DeviceLost) << describe();
-    EXPECT_EQ(vm.state()->fault_axis, kY);
+    EXPECT_EQ(vm.state()->fault_motor, kY);
     wait(4);
     ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
     wait(1);

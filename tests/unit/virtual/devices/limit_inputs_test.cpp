@@ -60,7 +60,7 @@ TEST_F(LimitsOfADevice, StopItsMotorAfterTheDebounceByTheDeviceAloneAndAreNamedI
     EXPECT_LE(last_step[kX], closed + kDebounce + kSteps);
     EXPECT_GT(last_step[kY], last_step[kX]) << "the other axis came to rest on its line, as its tail says";
     EXPECT_EQ(fault(), FaultCode::LimitHit);
-    EXPECT_EQ(vm.state()->fault_axis, kX);
+    EXPECT_EQ(vm.state()->fault_motor, kX);
     EXPECT_EQ(causes_of(vm.machine(), "X", fault()), "input x_end of motor X");
     EXPECT_TRUE(vm.axis_states()[kX]->switches.limit_max);
     EXPECT_FALSE(vm.axis_states()[kX]->homed);
@@ -123,7 +123,7 @@ TEST_F(LimitsAtABoard, StopTheMachineOnItsPathWithAKnownPlace) {
     vm.set_input(0, true);
     ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
     EXPECT_EQ(fault(), FaultCode::LimitHit);
-    EXPECT_EQ(vm.state()->fault_axis, kX) << "the fault is of the axis that is at its end";
+    EXPECT_EQ(vm.state()->fault_motor, kX) << "the fault is of the axis that is at its end";
     EXPECT_EQ(causes_of(vm.machine(), "X", fault()), "input x_max of board IO");
     const auto at = counts();
     EXPECT_NEAR(static_cast<double>(at[kX] - 500), 2.0 * static_cast<double>(at[kY] - 500), 2);

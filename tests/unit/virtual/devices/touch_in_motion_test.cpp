@@ -48,7 +48,7 @@ TEST_F(FaultsAtTouches, StopTheMachineOnItsPathInAFaultThatNamesTheInputAndTheLi
     touch();
     ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
     EXPECT_EQ(fault(), FaultCode::TouchInMotion);
-    ASSERT_EQ(vm.state()->fault_axis, kY);
+    ASSERT_EQ(vm.state()->fault_motor, kY);
     EXPECT_EQ(causes_of(vm.machine(), "Y", fault()), "input tip of motor Y");
     EXPECT_EQ(vm.state()->line, 7);
     EXPECT_EQ(vm.state()->outcome, JobOutcome::Failed);
