@@ -3,7 +3,7 @@
 
 Usage: measure.py README            writes the table again
        measure.py README --check    exits 1 if a row differs; places only designs of one axis, which takes a minute
-       measure.py README --device   writes the table of the device again, which takes minutes
+       measure.py README --device   writes the tables of the devices again, which takes minutes
 """
 import concurrent.futures
 import json
@@ -25,20 +25,29 @@ DEVICE_HEAD = """\
 | design | LUT4 | flip-flops | block RAM | UP5K, MHz | HX8K, MHz |
 |---|---|---|---|---|---|
 """
+MOTORS_BEGIN = "<!-- motors -->\n"
+MOTORS_HEAD = """\
+| motors | LUT4 | flip-flops | block RAM | SPRAM | UP5K, MHz |
+|---|---|---|---|---|---|
+"""
+SEEDS = range(1, 6)
 PARTS = {
     "UP5K": ["--up5k", "--package", "sg48", "--freq", "48"],
     "HX8K": ["--hx8k", "--package", "ct256", "--freq", "150"],
 }
 FLIP_FLOP, LUT, RAM = re.compile(r"SB_DFF"), re.compile(r"SB_LUT4"), re.compile(r"SB_RAM40_4K")
+SPRAM = re.compile(r"SB_SPRAM256KA")
 
 
 class Design:
     """A module, its parameters, for which numbers of axes it is measured, and the clocks of its shortest step."""
 
-    def __init__(self, name, folder, top, clocks_per_step, axes=(1, 3, 6), shared=False, **parameters):
+    def __init__(self, name, folder, top, clocks_per_step, axes=(1, 3, 6), shared=False, synth="synth_ice40",
+                 **parameters):
         self.name, self.folder, self.top, self.axes = name, folder, top, axes
         self.clocks_per_step = clocks_per_step
         self.shared = shared  # one module serves all axes; otherwise each has a copy
+        self.synth = synth
         self.parameters = parameters
 
     def copies(self, axes):
@@ -71,6 +80,12 @@ def devices():
     yield Design("of it the pins of the motor", "axis", "axis_pins", 0, (1,), True)
 
 
+def motors():
+    for count_of_motors in (1, 3, 6, 8):
+        yield Design(str(count_of_motors), "motors", "motors_chip", 0, (count_of_motors,), True, "synth_ice40 -spram",
+                     MOTORS=count_of_motors)
+
+
 def yosys(script, work):
     out = work / "out.json"
     subprocess.run(["yosys", "-q", "-p", f"{script} write_json {out}"], check=True)
@@ -79,7 +94,8 @@ def yosys(script, work):
 
 def synthesized(design, work):
     """The netlist of one copy."""
-    return yosys(f"read_verilog -I{HERE.parent} {design.sources()}; {design.chosen()} synth_ice40 -top {design.top};",
+    return yosys(f"read_verilog -I{HERE.parent} {design.sources()}; {design.chosen()} {design.synth} "
+                 f"-top {design.top};",
                  work)["modules"][design.top]
 
 
@@ -118,7 +134,7 @@ def netlist_with_few_pins(design, module, copies, work):
     wrapper, netlist = work / "few_pins.v", work / "placed.json"
     wrapper.write_text(with_few_pins(design, module, copies))
     subprocess.run(["yosys", "-q", "-p", f"read_verilog -I{HERE.parent} {design.sources()} {wrapper}; {design.chosen()} "
-                    f"synth_ice40 -top few_pins -json {netlist}"], check=True)
+                    f"{design.synth} -top few_pins -json {netlist}"], check=True)
     return netlist
 
 
@@ -132,9 +148,10 @@ class DoesNotFit(Exception):
     """The part has fewer cells than the design needs."""
 
 
-def placed(netlist, options):
-    run = subprocess.run(["nextpnr-ice40", *options, "--json", str(netlist), "--seed", "1", "--pcf-allow-unconstrained",
-                          "--timing-allow-fail"], capture_output=True, text=True, check=False)
+def placed(netlist, options, seed=1):
+    run = subprocess.run(["nextpnr-ice40", *options, "--json", str(netlist), "--seed", str(seed),
+                          "--pcf-allow-unconstrained", "--timing-allow-fail"], capture_output=True, text=True,
+                         check=False)
     found = re.findall(r"Max frequency for clock .*?: ([\d.]+) MHz", run.stderr)
     if "no BELs remaining" in run.stderr or "Failed to expand region" in run.stderr:
         raise DoesNotFit
@@ -176,6 +193,18 @@ def device_row(design):
                 + [clock_in(netlist, options) for options in PARTS.values()])
 
 
+def motors_row(design):
+    """The clock is the lowest one of all seeds."""
+    with tempfile.TemporaryDirectory() as folder:
+        work = pathlib.Path(folder)
+        module = synthesized(design, work)
+        netlist = netlist_with_few_pins(design, module, 1, work)
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            clocks = list(pool.map(lambda seed: placed(netlist, PARTS["UP5K"], seed), SEEDS))
+        return ([design.name] + [f"{count(module, kind):,}" for kind in (LUT, FLIP_FLOP, RAM, SPRAM)]
+                + [f"{min(clocks):.1f}"])
+
+
 def clock_in(netlist, options):
     try:
         return f"{int(placed(netlist, options))}"
@@ -206,6 +235,7 @@ def differences(rows, table):
 def main():
     readme, check = pathlib.Path(sys.argv[1]), "--check" in sys.argv
     if "--device" in sys.argv:
+        write_table(readme, MOTORS_BEGIN, text([motors_row(design) for design in motors()], MOTORS_HEAD))
         write_table(readme, DEVICE_BEGIN, text([device_row(design) for design in devices()], DEVICE_HEAD))
         return 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

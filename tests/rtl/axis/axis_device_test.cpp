@@ -2,68 +2,26 @@
 // must show the same words after every tick.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <bit>
 #include <cstdint>
-#include <cstdlib>
 
 #include "tests/rtl/axis/bench.hpp"
+#include "tests/rtl/axis/coverage.hpp"
 #include "tests/rtl/axis/drawn_host.hpp"
 #include "tests/rtl/axis/one_frame.hpp"
 
 namespace lockstep::rtl {
 namespace {
 
-/// What a run of the bench went through.
-class Coverage {
-public:
-    void note(const Bench& bench) {
-        const std::uint64_t status = bench.load(registers::kStatus);
-        for (unsigned bit = 0; bit < kBits; ++bit) { bits_[bit] += static_cast<int>((status & ~status_) >> bit & 1); }
-        status_ = status;
-        const std::uint64_t frame = bench.load(registers::kFrame);
-        joins_ += frame == frame_ + 1 && frame > 1 ? 1 : 0;
-        frame_ = frame;
-    }
-    /// How many ticks set this bit of STATUS.
-    int of(std::uint64_t bit) const { return bits_[static_cast<std::size_t>(std::countr_zero(bit))]; }
-    /// How many frames began at the end of another one's body.
-    int joins() const { return joins_; }
-
-private:
-    static constexpr unsigned kBits = 16;
-    std::array<int, kBits> bits_{};
-    std::uint64_t status_ = 0;
-    std::uint64_t frame_ = 0;
-    int joins_ = 0;
-};
-
-std::int64_t wanted_pieces() {
-    const char* asked = std::getenv("LOCKSTEP_RTL_PIECES");
-    return asked != nullptr ? std::atoll(asked) : 30'000;
-}
-
 TEST(AxisHardware, ShowsTheWordsOfTheSimulatedDeviceAfterEveryTickForAnyHost) {
     Bench bench(Tick{1'000'000});
-    DrawnHost host(bench, 4);
+    DrawnHost<Bench> host(bench, 4);
     Coverage covered;
     while (host.pieces() < wanted_pieces() && !HasFailure()) {
         host.act();
         bench.tick();
         covered.note(bench);
     }
-    using namespace registers;
-    EXPECT_GT(bench.load(kCaptureHead), 2'000) << "steps";
-    EXPECT_GT(bench.load(kCaptureLost), 10) << "steps";
-    EXPECT_GT(bench.load(kEventHead), 200) << "changes of inputs and outputs";
-    EXPECT_GT(bench.load(kEventLost), 10) << "changes of inputs and outputs";
-    EXPECT_GT(covered.joins(), 500);
-    for (const std::uint64_t bit :
-         {kStatusFinished, kStatusInTail, kStatusLimitMin, kStatusLimitMax, kStatusHome, kStatusStoppedByLimit,
-          kStatusStoppedByTrigger, kStatusStoppedByHost, kStatusBadSegment, kStatusCaptureOverflow, kStatusEnabled,
-          kStatusHostSilent, kStatusStoppedByInput, kStatusBadSetup, kStatusBadOutput}) {
-        EXPECT_GT(covered.of(bit), 5) << "bit " << std::countr_zero(bit);
-    }
+    covered.expect_all();
 }
 
 /// The simulated device refuses such a frame when it should begin.

@@ -4,15 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstdint>
 #include <string>
-#include <utility>
 
 #include "Vaxis_device.h"
 #include "core/hardware/device_abilities.hpp"
 #include "sim_fpga/device.hpp"
-#include "sim_fpga/register_ring.hpp"
+#include "tests/rtl/axis/compared.hpp"
 #include "tests/rtl/axis/verilog_device.hpp"
 
 namespace lockstep::rtl {
@@ -32,20 +30,14 @@ inline constexpr DeviceAbilities kAbilities{.segment_entries = 64,
                                             .has_encoder = false,
                                             .can_compare = false,
                                             .frames_stay = true};
-inline constexpr RegisterRing kSegments(registers::kSegmentRing, kAbilities.segment_entries,
-                                        registers::kSegmentRingEntryBytes);
-inline constexpr RegisterRing kChanges(registers::kOutputRing, kAbilities.output_entries,
-                                       registers::kOutputRingEntryBytes);
-inline constexpr RegisterRing kEvents(registers::kEventRing, kAbilities.event_entries, registers::kEventRingEntryBytes);
-inline constexpr RegisterRing kCaptures(registers::kCaptureRing, kAbilities.capture_entries,
-                                        registers::kCaptureRingEntryBytes);
-
 /// Both devices.
 class Bench {
 public:
+    static constexpr const DeviceAbilities& kAbilities = rtl::kAbilities;
+
     explicit Bench(Tick now)
         : window_(RegisterWindow::in_process()),
-          simulated_(window_, plant(), 1000, now, 0, kAbilities),
+          simulated_(window_, far_plant(), 1000, now, 0, kAbilities),
           verilog_(now) {}
 
     void store(std::size_t offset, std::uint64_t value) {
@@ -65,49 +57,15 @@ public:
         simulated_.advance(now() + Ticks{1});
         const int step = verilog_.tick(before, [this](int) { return simulated_.plant().pins(); });
         EXPECT_EQ(step, static_cast<std::int64_t>(load(registers::kCount)) - count) << where();
-        for (const auto& [name, offset] : kEachTick) { compare(name, offset, load(offset)); }
+        for (const auto& [name, offset] : kWordsOfEachTick) { compare(name, offset, load(offset)); }
         if (now().value % 8 == 0) { compare_rest(); }
     }
     /// Compares the words that no tick changes without changing one of the others.
     void compare_rest() {
-        for (const auto& [name, offset] : kRest) { compare(name, offset, load(offset)); }
+        for (const auto& [name, offset] : kOtherWords) { compare(name, offset, load(offset)); }
     }
 
 private:
-    using Name = std::pair<const char*, std::size_t>;
-    static constexpr std::array<Name, 9> kEachTick{{{"TICK", registers::kTick},
-                                                    {"STATUS", registers::kStatus},
-                                                    {"COUNT", registers::kCount},
-                                                    {"PHASE", registers::kPhase},
-                                                    {"VELOCITY", registers::kVelocity},
-                                                    {"RUN", registers::kRun},
-                                                    {"FRAME", registers::kFrame},
-                                                    {"OUTPUTS", registers::kOutputs},
-                                                    {"ANALOG_LOWER", registers::kAnalogLower}}};
-    static constexpr std::array<Name, 13> kRest{{{"TRIGGER_COUNT", registers::kTriggerCount},
-                                                 {"CAPTURE_HEAD", registers::kCaptureHead},
-                                                 {"CAPTURE_LOST", registers::kCaptureLost},
-                                                 {"CAPTURE_SUM", registers::kCaptureSum},
-                                                 {"CAPTURE_SUMS", registers::kCaptureSums},
-                                                 {"SETUP", registers::kSetup},
-                                                 {"INPUTS", registers::kInputs},
-                                                 {"EVENT_HEAD", registers::kEventHead},
-                                                 {"EVENT_LOST", registers::kEventLost},
-                                                 {"ENCODER", registers::kEncoder},
-                                                 {"SEGMENT_TAIL", registers::kSegmentTail},
-                                                 {"OUTPUT_TAIL", registers::kOutputTail},
-                                                 {"ANALOG_UPPER", registers::kAnalogUpper}}};
-
-    /// A plant whose switches are far away.
-    static Plant plant() {
-        MotorConfig motor;
-        motor.steps_per_mm = 100;
-        motor.position_min_mm = -1e9;
-        motor.position_max_mm = 1e9;
-        motor.homing.switch_position_mm = -1e9;
-        motor.homing.toward_min = true;
-        return Plant(motor, 1000);
-    }
     std::string where() const { return "at tick " + std::to_string(now().value); }
     void compare(const char* name, std::size_t offset, std::uint64_t expected) {
         ASSERT_EQ(verilog_.read(offset), expected) << name << ' ' << where();

@@ -1,17 +1,23 @@
 // A host that does everything a host may do, and much that it may not, at drawn times.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
 
+#include "core/hardware/device_abilities.hpp"
 #include "core/step/executable.hpp"
 #include "core/units.hpp"
+#include "sim_fpga/register_ring.hpp"
+#include "sim_fpga/registers.hpp"
 #include "tests/property/step/random_segment.hpp"
-#include "tests/rtl/axis/bench.hpp"
 
 namespace lockstep::rtl {
 
+/// Bench: both devices, with kAbilities, which says what they can do.
+template <typename Bench>
 class DrawnHost {
 public:
     DrawnHost(Bench& bench, std::uint64_t seed) : bench_(bench), draw_(seed) {
@@ -70,7 +76,7 @@ private:
     }
     void put_piece(const Piece& piece, std::uint64_t entry) {
         using namespace registers;
-        const std::size_t at = kSegments.entry(entry);
+        const std::size_t at = segments_.entry(entry);
         const bool is_wrong = draw_.one_in(2'000);
         const std::uint64_t ticks = kSegmentRingPieceTagTicks.word(static_cast<std::uint64_t>(piece.ticks.value));
         bench_.store(at + kSegmentRingPieceTag, is_wrong ? below(2) : ticks);
@@ -84,11 +90,11 @@ private:
         const std::uint64_t body = draw_.one_in(300) ? 0 : 1 + below(4);
         const std::uint64_t tail = below(4);
         const std::uint64_t used = head_ - bench_.load(kSegmentTail);
-        if (used + 1 + body + tail > kSegments.entries()) { return; }
+        if (used + 1 + body + tail > segments_.entries()) { return; }
         const std::uint64_t number = ++frame_;
         --frames_left_;
         const bool is_last = frames_left_ == 0 && !draw_.one_in(4);
-        const std::size_t at = kSegments.entry(head_);
+        const std::size_t at = segments_.entry(head_);
         const std::uint64_t run = draw_.one_in(100) ? run_ - 1 : run_;
         bench_.store(at + kSegmentRingHeaderTag,
                      (draw_.one_in(300) ? 0 : kSegmentRingHeaderTagIsHeader) |
@@ -123,9 +129,9 @@ private:
         using namespace registers;
         std::int64_t at = 1;
         for (std::int64_t left = draw_.one_in(3) ? draw_.below(5) : 0; left > 0; --left) {
-            if (output_head_ - bench_.load(kOutputTail) >= kChanges.entries()) { return; }
+            if (output_head_ - bench_.load(kOutputTail) >= changes_.entries()) { return; }
             at += draw_.below(1 + ticks / 2);
-            const std::size_t entry = kChanges.entry(output_head_++);
+            const std::size_t entry = changes_.entry(output_head_++);
             const std::uint64_t kind = draw_.one_in(300) ? 2 + below(2) : below(2);
             const std::uint64_t other = draw_.one_in(40) ? below(3) - 1 : 0;
             bench_.store(entry + kOutputRingTag, (is_tail != draw_.one_in(40) ? kOutputRingTagTail : 0) |
@@ -166,12 +172,12 @@ private:
         using namespace registers;
         const std::uint64_t head = bench_.load(kCaptureHead);
         for (; captured_ != head; ++captured_) {
-            const std::size_t at = kCaptures.entry(captured_) + kCaptureRingStep;
+            const std::size_t at = captures_.entry(captured_) + kCaptureRingStep;
             ASSERT_EQ(bench_.verilog().read(at), bench_.load(at)) << "captured step " << captured_;
         }
         bench_.store(kCaptureTail, captured_);
         for (const std::uint64_t end = bench_.load(kEventHead); noted_ != end; ++noted_) {
-            for (std::size_t at = kEvents.entry(noted_); at < kEvents.entry(noted_) + kEventRingEntryBytes; at += 8) {
+            for (std::size_t at = events_.entry(noted_); at < events_.entry(noted_) + kEventRingEntryBytes; at += 8) {
                 ASSERT_EQ(bench_.verilog().read(at), bench_.load(at)) << "event " << noted_ << ", word at " << at;
             }
         }
@@ -199,7 +205,8 @@ private:
     }
     void set_up() {
         using namespace registers;
-        bench_.store(kStepWidth, draw_.one_in(20) ? 65'536 : below(65'536));
+        const std::uint64_t width = kCan.longest_time;
+        bench_.store(kStepWidth, draw_.one_in(20) ? width + 1 : up_to(width));
         bench_.store(kEnableTicks, draw_.one_in(2) ? 0 : below(50));
         bench_.store(kInputsInverted, draw_.one_in(4) ? any_inputs() : 0);
         bench_.store(kLimitMinInputs, 1U | any_inputs());
@@ -215,14 +222,22 @@ private:
             bench_.store(kInputTable + n * kInputTableEntryBytes, draw_.one_in(2) ? 0 : below(12));
         }
         for (std::size_t n = 0; n < 3; ++n) {
-            const std::uint64_t period = draw_.one_in(30) ? 65'536 : below(65'536);
+            const std::uint64_t longest = kCan.longest_pwm_period;
+            const std::uint64_t period = draw_.one_in(30) ? longest + 1 : up_to(longest);
             bench_.store(kAnalogTable + n * kAnalogTableEntryBytes, n < 2 || draw_.one_in(30) ? period : 0);
         }
         bench_.store(kInputTable + 9 * kInputTableEntryBytes, draw_.one_in(30) ? 1 : 0);
         bench_.store(kSetupRequest, ++setup_);
     }
 
+    std::uint64_t up_to(std::uint64_t longest) { return below(static_cast<std::int64_t>(longest) + 1); }
+
     Bench& bench_;
+    static constexpr const DeviceAbilities& kCan = Bench::kAbilities;
+    RegisterRing segments_{registers::kSegmentRing, kCan.segment_entries, registers::kSegmentRingEntryBytes};
+    RegisterRing changes_{registers::kOutputRing, kCan.output_entries, registers::kOutputRingEntryBytes};
+    RegisterRing events_{registers::kEventRing, kCan.event_entries, registers::kEventRingEntryBytes};
+    RegisterRing captures_{registers::kCaptureRing, kCan.capture_entries, registers::kCaptureRingEntryBytes};
     testing::RandomSegments draw_;
     std::uint64_t run_ = 0;
     std::uint64_t frame_ = 0;

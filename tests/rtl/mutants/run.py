@@ -25,6 +25,8 @@ TESTS = {
     "carrica_controller": "CarricaHardware.*",
     "phase_driver": "PhaseDriver.*",
     "axis_device": "AxisHardware.*",
+    "motors_device_2": "TwoMotors.*",
+    "motors_chip": "MotorsChip.*",
     "axis_pins": "AxisPins.*",
     "axis_pwm": "AxisPwm.*",
     "axis_chip": "AxisChip.*",
@@ -64,9 +66,27 @@ MUTANTS = [
     ("axis_device", "axis/axis_sequencer.v", "is_armed <= armed >= number", "is_armed <= 1"),
     ("axis_device", "axis/axis_sequencer.v", "is_vetoed <= veto <= number", "is_vetoed <= veto < number"),
     ("axis_device", "axis/axis_sequencer.v", "!follows && tail_left != 0", "!follows && is_next && tail_left != 0"),
+    ("motors_device_2", "motors/program/3_frames.asm", "    cmp ARMED, NUMBER\n    jnc return\n", ""),
+    ("motors_device_2", "motors/motors_host.v", "begun || is_ring || may_write", "1'b1"),
+    ("motors_chip", "motors/motors_pins.v", "if (will_step) goes_forward", "goes_forward"),
 ]
 
 LONG_MUTANTS = [
+    ("motors_device_2", "motors/program/3_frames.asm", "    cmp NUMBER, VETO\n    jc return\n", ""),
+    ("motors_device_2", "motors/program/3_frames.asm", "    cmp REQUEST, RUN\n    jnz return\n", ""),
+    ("motors_device_2", "motors/program/3_frames.asm", "    cmp C, B\n    jnc return\n", ""),
+    ("motors_device_2", "motors/program/3_frames.asm", "    tst TAG[0], #2\n", "    tst TAG[0], #1\n"),
+    ("motors_device_2", "motors/program/1_tick.asm", "    jstep step\n", "    jc step\n"),
+    ("motors_device_2", "motors/program/1_tick.asm", "    tst SEEN, #AT_MAX\n    jnz into_limit\n", ""),
+    ("motors_device_2", "motors/program/1_tick.asm", "    joverflow overflow\n", ""),
+    ("motors_device_2", "motors/program/1_tick.asm", "    jlate late\n", ""),
+    ("motors_device_2", "motors/program/1_tick.asm", "    add CAPTURE_SUMS, CAPTURE_SUM\n", ""),
+    ("motors_device_2", "motors/program/4_inputs.asm", "    andn PENDING, CHANGED\n", ""),
+    ("motors_device_2", "motors/program/5_outputs.asm", "    add B, BASE\n", ""),
+    ("motors_device_2", "motors/program/5_outputs.asm", "    cmp B, LAST_IN_TAIL\n    jnc change_is_bad\n", ""),
+    ("motors_device_2", "motors/program/6_setup.asm", "    tst A[2], #0xff & ~((1 << ANALOG) - 1)\n    jnz refuse\n", ""),
+    ("motors_chip", "motors/motors_pins.v", "(begins && steps)", "begins"),
+    ("motors_chip", "motors/motors_analog.v", "{1'b0, its_rest}", "16'd0"),
     ("axis_device", "axis/axis_sequencer.v", "is_of_request <= run_request == run", "is_of_request <= 1"),
     ("axis_device", "axis/axis_adder.v", "is_now <= is_equal;", "is_now <= 1;"),
     ("axis_device", "axis/axis_adder.v", "? !addend[63] : sum[64]; // signed", "? !addend[63] : 1'b1;"),
@@ -128,6 +148,8 @@ def mutated(rtl, work, file, there, instead):
     if source.count(there) != 1:
         sys.exit(f"{file} has `{there}` {source.count(there)} times, not once")
     (folder / file).write_text(source.replace(there, instead))
+    if file.endswith(".asm"):
+        subprocess.run([folder / "motors" / "assemble.py"], check=True)
     return folder
 
 

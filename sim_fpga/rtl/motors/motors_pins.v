@@ -1,0 +1,70 @@
+// The pins of the motors: step, direction and enable of each, and its digital outputs. What the core finds for a tick
+// is at the pins from the next tick on, so the time from a tick to its edges does not depend on the core's work.
+//
+// A pulse begins DIRECTION_SETUP after the tick and lasts STEP_WIDTH; the direction changes with the tick. Times are in
+// units of 8 clocks: in each clock one of the motors is looked at. Two times must fit into a tick (LONGEST_TIME). Then
+// the pause behind a pulse is as long as the pulse, and DIRECTION_HOLD is kept.
+module motors_pins #(
+    parameter MOTORS = 8,       // at most 8
+    parameter MOTOR_BITS = 3,
+    parameter DIGITAL = 8
+) (
+    input clk,
+    input tick,                 // for one clock: a tick begins
+    // Of this motor, each for one clock.
+    input [MOTOR_BITS-1:0] motor,
+    input step_forward,
+    input step_backward,
+    input set_levels,
+    input set_enable,           // {inverted enable, direction, step, enabled}
+    input set_times,            // {end, begin} of a pulse
+    input [15:0] data,
+    output reg [MOTORS-1:0] step_pins,
+    output reg [MOTORS-1:0] direction_pins,
+    output reg [MOTORS-1:0] enable_pins,
+    output reg [DIGITAL*MOTORS-1:0] digital_pins
+);
+    (* no_rw_check *) reg [15:0] times[0:255];
+    reg [15:0] found;           // of the motor `seen`
+    reg [2:0] at, seen;
+    reg [7:0] unit;             // since the tick
+    integer i;
+    initial begin
+        {at, seen, unit, found} = 0;
+        for (i = 0; i < 256; i = i + 1) times[i] = 16'h0c00;
+    end
+    always @(posedge clk) begin
+        if (set_times) times[{5'd0, motor}] <= data;
+        found <= times[{5'd0, at}];
+        seen <= at;
+        at <= tick ? 3'd0 : at + 1'b1;
+        if (tick) unit <= 0;
+        else if (seen == 7 && unit != 8'hff) unit <= unit + 1'b1;
+    end
+    wire begins = unit == found[7:0], ends = unit == found[15:8];
+
+    genvar n;
+    generate for (n = 0; n < MOTORS; n = n + 1) begin : motors
+        reg will_step, will_go_forward, steps, is_on, goes_forward, is_enabled;
+        reg [2:0] inverted;
+        reg [DIGITAL-1:0] levels;
+        wire is_this = motor == n;
+        initial {will_step, will_go_forward, steps, is_on, goes_forward, is_enabled, inverted, levels} = 0;
+        always @(posedge clk) begin
+            if (is_this && (step_forward || step_backward)) {will_step, will_go_forward} <= {1'b1, step_forward};
+            else if (tick) will_step <= 0;
+            if (tick) begin
+                steps <= will_step;
+                if (will_step) goes_forward <= will_go_forward;
+            end
+            if (seen == n) is_on <= (is_on || (begins && steps)) && !ends;
+            if (is_this && set_enable) {inverted, is_enabled} <= data[3:0];
+            if (is_this && set_levels) levels <= data[DIGITAL-1:0];
+            step_pins[n] <= is_on ^ inverted[0];
+            direction_pins[n] <= goes_forward ^ inverted[1];
+            enable_pins[n] <= is_enabled ^ inverted[2];
+            if (tick) digital_pins[DIGITAL*n +: DIGITAL] <= levels;
+        end
+    end endgenerate
+    initial {step_pins, direction_pins, enable_pins, digital_pins} = 0;
+endmodule
