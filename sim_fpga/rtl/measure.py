@@ -81,9 +81,7 @@ def devices():
 
 
 def motors():
-    for count_of_motors in (1, 3, 6, 8):
-        yield Design(str(count_of_motors), "motors", "motors_chip", 0, (count_of_motors,), True, "synth_ice40 -spram",
-                     MOTORS=count_of_motors)
+    yield Design("6", "motors", "motors_chip", 0, (6,), True, "synth_ice40 -spram", MOTORS=6)
 
 
 def yosys(script, work):

@@ -97,7 +97,7 @@ TEST_F(TwoMotors, EndTheRunInTheTickInWhichTheVelocityLeaves64Bits) {
 }
 
 /// The pins would show its step too late.
-TEST_F(TwoMotors, ATickWhoseStepIsNotMadeBeforeTheNextOneEndsAllRuns) {
+TEST_F(TwoMotors, ATickWhoseStepsAreNotMadeBeforeTheNextOneEndsTheRunsAndAllFurtherOnes) {
     using namespace registers;
     run_frame(0, 100, kQuarter, 0);
     run_frame(1, 100, kQuarter, 0);

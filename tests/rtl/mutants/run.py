@@ -68,7 +68,7 @@ MUTANTS = [
     ("axis_device", "axis/axis_sequencer.v", "!follows && tail_left != 0", "!follows && is_next && tail_left != 0"),
     ("motors_device_2", "motors/program/3_frames.asm", "    cmp ARMED, NUMBER\n    jnc return\n", ""),
     ("motors_device_2", "motors/motors_host.v", "begun || is_ring || may_write", "1'b1"),
-    ("motors_chip", "motors/motors_pins.v", "if (will_step) goes_forward", "goes_forward"),
+    ("motors_chip", "motors/motors_pins.v", "unit == found[7:0]", "unit == 0"),
 ]
 
 LONG_MUTANTS = [
