@@ -162,16 +162,5 @@ TEST(Backlash, IsNotTakenUpTwiceInOneDirection) {
     EXPECT_EQ(end, (Place{2 * 80 + 8, 3 * 80 + 8}));
 }
 
-/// On the way to the end the motor hardly turns, but the machine rests on whole steps, so it goes back further.
-TEST(Backlash, LeavesTheSlideOnTheWholeStepAtWhichTheProgramEnds) {
-    const Backlash play{.steps = 8, .speed_mm_s = 20};
-    const PathSetup setup = loose({{}}, Ticks{5'000}, {play});
-    TestProgram program;
-    program.add({100.6 / 80}, 20);
-    program.add({100.45 / 80}, 20);
-    Slides slides(setup);
-    EXPECT_NEAR(follow(slides, run_path(setup, program)).back()[0], 100, 1e-6);
-}
-
 }  // namespace
 }  // namespace lockstep
