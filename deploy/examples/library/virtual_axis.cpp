@@ -38,7 +38,7 @@ public:
     VirtualAxis()
         : device_(window_, Plant(motors_of(machine_)[0], machine_.tick_ns), machine_.tick_ns, Tick{}),
           driver_(DeviceDriver::attach(window_, machine_.tick_ns).value()),
-          axis_(0, machine_, kIdentity, kConfigHash, methods::begin_steps,
+          axis_(MotorIndex{0}, machine_, kIdentity, kConfigHash, methods::begin_steps,
                 std::unexpected(FaultCode::PositionNotKept)) {
         driver_.set_up(setup_of(machine_, motors_of(machine_)[0])).value();
     }
