@@ -20,8 +20,10 @@ ClockServer::ClockServer(Participant& participant, ReadClock machine_time)
 void ClockServer::serve(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         if (!arrivals_.wait_for(kServerNap)) { continue; }
-        const Tick received = machine_time_();
-        requests_.take([&](ClockRequest&& request) { (void)replies_.write({request, received, machine_time_()}); });
+        requests_.take([&](ClockRequest&& request) {
+            const Tick received = machine_time_();  // a request may come behind the one that woke this thread
+            (void)replies_.write({request, received, machine_time_()});
+        });
     }
 }
 
@@ -36,9 +38,8 @@ void ClockClient::run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         if (const auto request = asker_.ask(own_clock_())) { (void)requests_.write(*request); }
         if (!arrivals_.wait_for(kClientNap)) { continue; }
-        const Tick arrived = own_clock_();
-        replies_.take([&](ClockReply&& reply) {
-            if (const auto exchange = asker_.receive(reply, arrived)) { new_.push_back(*exchange); }
+        replies_.take([&](ClockReply&& reply) {  // its time is read when it is here for certain
+            if (const auto exchange = asker_.receive(reply, own_clock_())) { new_.push_back(*exchange); }
         });
         const std::scoped_lock lock(mutex_);
         exchanges_.insert(exchanges_.end(), new_.begin(), new_.end());
