@@ -33,7 +33,7 @@ void BoardBridge::step() {
         std::this_thread::sleep_for(std::chrono::milliseconds{kMostWait_ms});
     } else {
         line_->wait(kMostWait_ms);
-        receive(monotonic_now());
+        receive();
     }
     const Time now = monotonic_now();
     firmware::Frame frame;
@@ -60,9 +60,9 @@ bool BoardBridge::has_line(Time now) {
     return true;
 }
 
-/// `now` is behind the arrival of the bytes.
-void BoardBridge::receive(Time now) {
+void BoardBridge::receive() {
     const auto bytes = line_->receive();
+    const Time now = monotonic_now();  // behind the arrival of the bytes
     if (!bytes) {
         line_.reset();
         return;

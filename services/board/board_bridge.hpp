@@ -37,7 +37,7 @@ private:
     static constexpr Time kOpenPeriod = std::chrono::milliseconds{200};
 
     bool has_line(Time now);
-    void receive(Time now);
+    void receive();
     void watch_answers(Time now);
 
     LinkName name_;
