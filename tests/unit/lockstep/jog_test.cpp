@@ -78,12 +78,12 @@ TEST_F(TypedKeys, ComeInPartsAndInBothForms) {
 TEST_F(TypedKeys, ChangeTheSpeedAndReleaseWhatIsHeld) {
     keys.take("\x1b[C+", 1s);
     EXPECT_TRUE(keys.jogs(1s).empty());
-    EXPECT_EQ(keys.speed_mm_s(0), 20);
-    EXPECT_EQ(keys.speed_mm_s(2), 4) << "what the axis can do";
+    EXPECT_EQ(keys.speed_mm_s(AxisIndex{0}), 20);
+    EXPECT_EQ(keys.speed_mm_s(AxisIndex{2}), 4) << "what the axis can do";
     keys.take("---", 1s);
-    EXPECT_EQ(keys.speed_mm_s(0), 2.5);
+    EXPECT_EQ(keys.speed_mm_s(AxisIndex{0}), 2.5);
     keys.take("++++++++++++++++", 1s);
-    EXPECT_EQ(keys.speed_mm_s(0), 50);
+    EXPECT_EQ(keys.speed_mm_s(AxisIndex{0}), 50);
 }
 
 /// The screen does this when its loop comes late.
