@@ -1,4 +1,4 @@
-// The axes as the coordinator knows them: which are present, and the newest state of each.
+// The motors as the coordinator knows them, each by its process: which are present, and the newest state of each.
 #pragma once
 
 #include <optional>
@@ -17,18 +17,18 @@ public:
     explicit AxisRoster(const MachineConfig& machine)
         : timing_(machine.timing), inputs_(machine), views_(motor_count(machine)) {}
 
-    /// How a received state relates to what is known of its axis.
+    /// How a received state relates to what is known of its motor.
     enum class Arrival : std::uint8_t {
         Ignored,    // old, out of order, not of this machine, or of another process that was not confirmed yet
         SameAxis,   // from the known process
-        FirstSeen,  // from an axis that was not known
+        FirstSeen,  // from a motor that was not known
         Replaced    // from a process that replaces the known one, which is silent for longer than it may stall
     };
     Arrival arrival_of(const AxisState& state, Slot now);
     /// Keeps a state that is not to be ignored.
     void take(const AxisState& state, Slot now);
 
-    /// Slots missed in the coordinator's own stall do not count as an axis's silence. After a long stall another
+    /// Slots missed in the coordinator's own stall do not count as a motor's silence. After a long stall another
     /// coordinator may own the machine.
     void forgive(Slot missed, Slot now);
     /// True after a long stall until every present axis was received in two slots. Until then it is not known which
@@ -37,7 +37,7 @@ public:
 
     std::size_t size() const { return views_.size(); }
     std::span<const AxisView> views() const { return views_; }
-    /// Empty if the axis was never received or is gone.
+    /// Empty if the motor was never received or is gone.
     const std::optional<AxisState>& state(MotorIndex motor) const { return views_[motor].state; }
     bool is_present(MotorIndex motor, Slot now) const { return views_[motor].present(now, timing_); }
     void forget(MotorIndex motor) { views_[motor].state.reset(); }
@@ -46,10 +46,10 @@ public:
     std::optional<MotorIndex> missing(Slot now) const;
     std::optional<MotorIndex> without_device() const;
     std::optional<MotorIndex> not_homed() const;
-    /// The axis's clock error may exceed this limit.
+    /// The motor's clock error may exceed this limit.
     bool is_uncertain(MotorIndex motor, Ticks limit) const;
     std::optional<MotorIndex> uncertain(Ticks limit) const;
-    /// Returns an axis that is present and not at rest; nullopt if there is none.
+    /// Returns a motor that is present and not at rest; nullopt if there is none.
     std::optional<MotorIndex> moving(Slot now) const;
     bool all_rest() const;
     /// The first of the machine's inputs with this use that is closed; nullopt if there is none.

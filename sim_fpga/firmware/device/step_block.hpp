@@ -18,7 +18,7 @@ struct StepBlock {
     std::int64_t tick(std::uint32_t n) const { return begin + after[n]; }
 };
 
-/// What the taker of a block has done with.
+/// The part of a block that is taken.
 struct TakenSteps {
     std::uint32_t steps = 0;  // the first so many
     bool pauses = false;      // no tick behind the last of them is executed: something is due

@@ -1,10 +1,10 @@
 // One processor that runs the devices of all motors, one motor after the other in each tick. It has one adder of 16
-// bits. What it knows of a motor is in its registers, which are block RAM, and in memory; what it does is a program in
-// block RAM (program/*.asm, put together by assemble.py). So a motor more costs memory and clocks, and hardly a cell.
+// bits. The state of each motor is in registers, which are block RAM, and in memory. The program is in block RAM
+// (program/*.asm, put together by assemble.py). So another motor costs memory and clocks, and hardly a cell.
 //
 // An instruction is read (`ins`), reads its registers, is executed (x_), and writes its result (w_), a clock each. It
-// does so for up to four limbs of 16 bits, from the lowest one on, with the carry from one to the next. It waits as
-// long as the assembler says, so that what it reads is there. What comes from memory is written a clock later (v_); the
+// does so for up to four limbs of 16 bits, from the lowest one on, with the carry from one to the next. It waits until
+// its registers are written, as long as the assembler says. A word from memory is written a clock later (v_); the
 // assembler leaves that clock free. A jump drops the three instructions behind it.
 module motors_core #(
     parameter MOTORS = 8,

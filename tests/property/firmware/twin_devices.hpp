@@ -37,7 +37,7 @@ public:
     const std::vector<std::pair<Tick, std::uint16_t>>& changes() const { return changes_; }
     void show_analog(std::size_t channel, const firmware::Ramp& ramp) override { ramps_[channel] = ramp; }
     std::uint16_t shown() const { return shown_; }
-    /// What an analog output shows after this tick.
+    /// The value of an analog output after this tick.
     std::int64_t shown(std::size_t channel, Tick now) const { return ramps_[channel].at(now.value); }
     std::int64_t encoder() const override { return plant_.encoder(); }
     Plant& plant() { return plant_; }

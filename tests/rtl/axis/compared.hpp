@@ -1,4 +1,4 @@
-// What a device in Verilog and the simulated device are compared by, and the plant of both.
+// The words by which a device in Verilog is compared with the simulated device, and the plant of both.
 #pragma once
 
 #include <array>
