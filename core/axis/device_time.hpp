@@ -22,7 +22,6 @@ namespace lockstep {
 
 class DeviceTime {
 public:
-    /// `axis`: its place in the configuration.
     DeviceTime(MotorIndex motor, const MachineConfig& machine);
 
     const DeviceClocks& clocks() const { return clocks_; }

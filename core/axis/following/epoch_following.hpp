@@ -13,7 +13,6 @@ namespace lockstep {
 
 class EpochFollowing {
 public:
-    /// `axis`: its place in the configuration.
     EpochFollowing(MotorIndex motor, const MachineConfig& machine) : motor_(motor), follower_(motor, machine) {}
 
     /// An epoch is in progress on this axis.

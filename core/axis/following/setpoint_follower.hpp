@@ -18,7 +18,6 @@ namespace lockstep {
 
 class SetpointFollower {
 public:
-    /// `axis` of `axes`, by their places in the configuration.
     SetpointFollower(MotorIndex motor, const MachineConfig& machine);
 
     /// Takes evidence and a veto from another process. States of other epochs are evidence of nothing.

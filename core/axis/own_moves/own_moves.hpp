@@ -14,7 +14,7 @@ namespace lockstep {
 
 class OwnMoves {
 public:
-    /// `axis`: its place in the configuration. `begin_steps`: its step methods.
+    /// `begin_steps`: its step methods.
     OwnMoves(MotorIndex motor, const MachineConfig& machine, BeginSteps begin_steps);
 
     bool is_running() const { return run_.has_value(); }

@@ -1,4 +1,5 @@
-// What a drawn host has made a device go through, so that a test that compares devices does not compare nothing.
+// Counts the states of a device that a drawn host has reached: a comparison of devices that stay at rest proves
+// nothing.
 #pragma once
 
 #include <gtest/gtest.h>
