@@ -87,11 +87,16 @@ public:
 
 private:
     /// Where a motor takes up its backlash, all others stop, and it begins and ends at once. That is another joint.
+    /// The steps of a device that died are not recorded: after them others may stop between any two steps.
     void add_take_ups(const Recording& recording, const JobRecord& job) {
         std::vector<Tick> first, last;
+        Tick seen_until = job.ended;
         for (std::size_t m = 0; m < recording.motors.size(); ++m) {
             if (recording.motors[m].play == 0) { continue; }
             const auto steps = recording.steps_of(job, m);
+            if (may_be_stopped(recording, m, job.began, job.ended)) {
+                seen_until = std::min(seen_until, steps.empty() ? job.began : recording.motors[m].truth(steps.back()));
+            }
             const auto ways = recording.slide_ways(job, m);
             for (std::size_t n = 0; n < steps.size(); ++n) {
                 if (ways[n] != 0) { continue; }
@@ -105,10 +110,11 @@ private:
         std::ranges::sort(last);
         for (std::size_t n = 0; n < steps_.size(); ++n) {
             const Tick at = recording.motors[axis_].truth(steps_[n]);
+            if (at > seen_until) { ++joints_up_to_[n]; }
             joints_before_[n] += static_cast<std::size_t>(std::ranges::lower_bound(last, at) - last.begin());
             joints_up_to_[n] += static_cast<std::size_t>(std::ranges::upper_bound(first, at) - first.begin());
         }
-        joints_up_to_.back() += first.size();
+        joints_up_to_.back() += first.size() + (seen_until < job.ended ? 1 : 0);
     }
 
     /// Whether the axis may have rested before step n. After a pause it rests at least as long.
