@@ -143,10 +143,11 @@ struct JobRecord {
     Tick began;
     Tick ended;
     std::optional<Tick> emergency;  // the time of an emergency stop
+    bool may_have_touched = false;  // a probing move, also when its result was lost with the coordinator
     std::optional<ProbeRecord> probe;
 
     /// All of the program was run.
-    bool is_whole() const { return outcome == JobOutcome::Done && !(probe && probe->result.touched()); }
+    bool is_whole() const { return outcome == JobOutcome::Done && !may_have_touched; }
 };
 
 /// An emergency stop, from the command, or from the pressing of an input, until the machine is at rest.

@@ -478,7 +478,8 @@ void JobPlayer::record() {
 /// Takes the result of this job's probing move, if it has one.
 void JobPlayer::record_probe() {
     if (!is_probing(task_.program)) { return; }
-    if (!touches_.empty()) {
+    job_.may_have_touched = !touches_.empty();
+    if (job_.may_have_touched) {
         double seconds = 0;
         for (const std::size_t input : probe_inputs(bench_.machine())) {
             bench_.set_input(input, false);
@@ -489,6 +490,7 @@ void JobPlayer::record_probe() {
     const auto& result = bench_.vm().state()->probe;
     if (!begun_ || !result || result->job == probed_before_) { return; }
     if (result->job != bench_.vm().state()->job) { return; }  // a new owner reports the result of an earlier job
+    job_.may_have_touched = result->touched();
     job_.probe = probe_record(bench_, task_.program, job_, at_);
     job_.probe->touches = touches_;
     job_.probe->is_undisturbed = !disturbed() && !job_.emergency;
