@@ -55,10 +55,12 @@ void ProgramBuilder::pause(PauseReason reason, int tool) {
 
 /// Without a wait M66 would only set #5399, which programs cannot read.
 void ProgramBuilder::wait_for_input(const Event& event) {
-    const InputConfig* const input =
-        event.is_analog ? nullptr : input_numbered(setup_.inputs, InputUse::Program, event.index);
+    if (event.is_analog) {
+        return note("M66 E", "M66 E has no effect: it does not wait for the analog input, and #5399 cannot be read");
+    }
+    const InputConfig* const input = input_numbered(setup_.inputs, InputUse::Program, event.index);
     if (input == nullptr) {
-        const std::string name = (event.is_analog ? "analog input " : "input ") + std::to_string(event.index);
+        const std::string name = "input " + std::to_string(event.index);
         if (is_refused(setup_.unassigned.inputs, name.c_str(), "inputs")) { return; }
         return note(name, name + " is not configured: M66 is ignored");
     }

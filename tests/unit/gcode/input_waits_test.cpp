@@ -35,16 +35,21 @@ TEST(InputWaits, AreARestOfTheProgramWithATextForThePerson) {
 }
 
 TEST(InputWaits, DoNotWaitWithL0) {
-    const auto read = read_gcode("G0 X1\nM66 P3 L0\n", with_clamp());
-    ASSERT_TRUE(read) << read.error().front().message;
-    EXPECT_EQ(read->program.blocks.size(), 1U);
-    ASSERT_EQ(read->notes.size(), 1U);
-    EXPECT_THAT(read->notes[0].text, HasSubstr("no effect"));
+    for (const std::string word : {"P3 L0", "E0 L0"}) {
+        const auto read = read_gcode("G0 X1\nM66 " + word + "\n", with_clamp());
+        ASSERT_TRUE(read) << read.error().front().message;
+        EXPECT_EQ(read->program.blocks.size(), 1U);
+        ASSERT_EQ(read->notes.size(), 1U);
+        EXPECT_THAT(read->notes[0].text, HasSubstr("no effect"));
+    }
+}
+
+TEST(InputWaits, AreNotMadeForAnalogInputs) {
+    EXPECT_THAT(error_of("M66 E0 L3 Q1\n"), HasSubstr("not possible for an analog input"));
 }
 
 TEST(InputWaits, AreRefusedForInputsThatTheMachineLacks) {
     EXPECT_THAT(error_of("G0 X1\nM66 P4 L3 Q1\n"), HasSubstr("2: input 4 is not configured on this machine"));
-    EXPECT_THAT(error_of("M66 E0 L0\n"), HasSubstr("1: analog input 0 is not configured on this machine"));
 }
 
 TEST(InputWaits, NeedATimeLimitInItsRange) {
