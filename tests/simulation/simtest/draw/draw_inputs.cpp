@@ -28,8 +28,11 @@ Interrupt draw_change(Draw& draw) {
 
 void give_inputs(std::uint64_t seed, Scenario& scenario) {
     Draw draw(seed ^ 0x1290751290751290U);
-    scenario.machine.inputs = {draw_input(draw, scenario.machine, "estop", 3, InputUse::EmergencyStop),
-                               draw_input(draw, scenario.machine, "door", 4, InputUse::Door)};
+    const MachineConfig& machine = scenario.machine;
+    const InputConfig stop = draw_input(draw, machine, "estop", 3, InputUse::EmergencyStop);
+    const InputConfig door = draw_input(draw, machine, "door", 4, InputUse::Door);
+    std::vector<InputConfig>& inputs = scenario.machine.inputs;
+    inputs.insert(inputs.begin(), {stop, door});
     for (Task& task : scenario.tasks) {
         for (std::int64_t n = draw.whole(0, 2); n > 0; --n) {
             const auto place = draw.index(task.interrupts.size() + 1);

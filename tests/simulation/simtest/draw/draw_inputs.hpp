@@ -5,12 +5,12 @@
 
 namespace lockstep::simtest {
 
-// The numbers of the machine's inputs.
+// Their places among the machine's inputs.
 inline constexpr std::size_t kStopInput = 0;
 inline constexpr std::size_t kDoorInput = 1;
 
-/// Both inputs at drawn motors, and times in jobs at which the door opens or the stop is pressed. The random numbers
-/// are separate: scenarios without inputs stay the same.
+/// Puts both inputs, at drawn motors, before those of the machine, and gives times in jobs at which the door opens or
+/// the stop is pressed. The random numbers are separate: scenarios without inputs stay the same.
 void give_inputs(std::uint64_t seed, Scenario& scenario);
 
 }  // namespace lockstep::simtest
