@@ -58,7 +58,7 @@ install(FILES deploy/systemd/lockstep-coordinator.service deploy/systemd/lockste
 # Installs core, the simulated device and the driver of its registers, with headers where their #include lines find
 # them.
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR}-dev COMPONENT lockstep-dev)
-install(TARGETS lockstep_core lockstep_core_many lockstep_sim_fpga lockstep_device_driver EXPORT lockstep
+install(TARGETS lockstep_core lockstep_sim_fpga lockstep_device_driver EXPORT lockstep
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lockstep-dev
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lockstep)
 install(DIRECTORY core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lockstep COMPONENT lockstep-dev
@@ -112,7 +112,7 @@ set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_CONTROL_EXTRA
 set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_CONTROL_STRICT_PERMISSION TRUE)
 set(CPACK_DEBIAN_LOCKSTEP-DEV_PACKAGE_NAME lockstep-dev)
 set(CPACK_DEBIAN_LOCKSTEP-DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_LOCKSTEP-DEV_PACKAGE_DEPENDS "lockstep (= ${PROJECT_VERSION}), libhwy-dev, liblcm-dev, liblcm-bin")
+set(CPACK_DEBIAN_LOCKSTEP-DEV_PACKAGE_DEPENDS "lockstep (= ${PROJECT_VERSION}), liblcm-dev, liblcm-bin")
 set(CPACK_DEBIAN_LOCKSTEP-DEV_DESCRIPTION
   "The core, to build on: step engine, planner, frames, and the axis and the coordinator as state machines
  without I/O, as a static library with headers and a CMake package.")

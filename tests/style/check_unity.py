@@ -9,7 +9,7 @@ import re
 import sys
 
 ROOTS = ["core", "sim_fpga", "services", "clients", "tests"]
-SEPARATE = ["core/step/many/", "core/axis/following/owner_link.cpp"]
+SEPARATE = ["tests/benchmarks/step/many/", "core/axis/following/owner_link.cpp"]
 
 
 def target_of(path):

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/step/engine.hpp"
-#include "core/step/many/run_many.hpp"
+#include "tests/benchmarks/step/many/run_many.hpp"
 #include "tests/benchmarks/step/measure.hpp"
 #include "tests/benchmarks/step/moves.hpp"
 

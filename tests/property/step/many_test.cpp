@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/step/many/run_many.hpp"
 #include "core/step/tick_engine.hpp"
+#include "tests/benchmarks/step/many/run_many.hpp"
 #include "tests/property/step/print_segment.hpp"
 #include "tests/property/step/random_segment.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/step/many/edge_buffer.hpp"
+#include "tests/benchmarks/step/many/edge_buffer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "core/step/many/run_many.hpp"
+#include "tests/benchmarks/step/many/run_many.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/step/many/run_many.cpp"
+#define HWY_TARGET_INCLUDE "tests/benchmarks/step/many/run_many.cpp"
 #include <hwy/foreach_target.h>
 // The include above compiles this file again for each instruction set; each pass includes highway.h once.
 #include <hwy/highway.h>
 
-#include "core/step/many/vector_walk-inl.hpp"
+#include "tests/benchmarks/step/many/vector_walk-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace lockstep::HWY_NAMESPACE {

@@ -13,8 +13,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/step/many/edge_buffer.hpp"
 #include "core/step/walk_roots.hpp"
+#include "tests/benchmarks/step/many/edge_buffer.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace lockstep::HWY_NAMESPACE {

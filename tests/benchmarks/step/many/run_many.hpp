@@ -4,7 +4,7 @@
 #include <span>
 
 #include "core/step/engine.hpp"
-#include "core/step/many/edge_buffer.hpp"
+#include "tests/benchmarks/step/many/edge_buffer.hpp"
 
 namespace lockstep {
 
