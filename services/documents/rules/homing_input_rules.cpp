@@ -43,9 +43,11 @@ void check_homing_input(const MachineConfig& machine, const AxisConfig& axis, Pr
                                  homing.input));
     problems.require(homing.way != HomingWay::InPlace, "homing.input",
                      "homing.input is given, but in_place: true says that the axis has no switch; remove one");
-    problems.require(axis.motors.size() < 2, "homing.input",
-                     "homing.input is given, but the axis has several motors, which home by their own switches to be "
-                     "square; remove it");
+    problems.require(
+        axis.motors.size() < 2, "homing.input",
+        "homing.input is given, but the axis has several motors: one switch does not show which of them is "
+        "ahead, so it cannot make them square; remove it, and wire a switch for each motor to its own "
+        "device, or square them by hand and set in_place: true");
     problems.require(!is_of_delta(axis, machine), "homing.input",
                      "homing.input is given, but the axis is of a delta, whose carriages home by their own switches; "
                      "remove it");

@@ -107,6 +107,18 @@ TEST(Inputs, TheSwitchOfAnAxisMustBoundHowFarItsSearchGoesOn) {
                 HasSubstr("homing.search_velocity_mm_s is 0.5, with which the axis may go on for 0.17"));
 }
 
+TEST(Inputs, OneSwitchDoesNotMakeTheMotorsOfAnAxisSquare) {
+    const std::string input = R"(name: "x_home" motor: "X1" channel: 3 use: HOME)";
+    std::string text = homed_by(R"(input: "x_home" search_velocity_mm_s: 0.5)", input);
+    const std::string axis = "axis {";
+    text.insert(text.find(axis) + axis.size(), R"( max_skew_mm: 5 motor { name: "X1" } motor { name: "X2" })");
+    EXPECT_THAT(error_of(text), HasSubstr("homing.input is given, but the axis has several motors: one switch does not "
+                                          "show which of them is ahead"));
+    const std::string by_input = R"(input: "x_home" search_velocity_mm_s: 0.5)";
+    text.replace(text.find(by_input), by_input.size(), "in_place: true");
+    EXPECT_EQ(error_of(text), "no error");
+}
+
 /// The shortest machine with this input, and with the board if the input is there.
 std::string with_limit(const std::string& input) {
     const std::string board = input.starts_with("board") ? "board { name: \"IO\" }\n" : "";
