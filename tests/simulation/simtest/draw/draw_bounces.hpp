@@ -1,4 +1,4 @@
-// Contacts of inputs that bounce when they close and open, for less and for more than their debounce.
+// Contacts of inputs that bounce when they close and open, for less or for more than their debounce.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace lockstep::simtest {
 
-/// Most of the machine's inputs bounce.
+/// Most of the machine's inputs bounce; switches that axes home by only for less than their debounce.
 void give_bounces(std::uint64_t seed, Scenario& scenario);
 
 /// How long an input bounces after its contact has changed.
