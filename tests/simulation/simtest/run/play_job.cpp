@@ -92,7 +92,7 @@ bool is_refusal(const Reply& reply, FaultCode why) {
 /// A machine in Fault accepts nothing before a reset. With a standby another owner may not know of the fault, and obey.
 void ask_in_fault(Bench& bench) {
     const auto before = bench.steps_made();
-    const Reply* reply = bench.ask(CommandKind::Home);
+    const Reply* reply = bench.ask_in_time(CommandKind::Home);
     if (reply == nullptr) { return; }
     const bool moves = bench.faulted() && bench.steps_made() != before;
     if (moves || reply->status != ReplyStatus::Refused) { bench.object("refusal", "in Fault: " + answer_text(*reply)); }
@@ -209,7 +209,7 @@ void play_homing(Bench& bench, Counts& at, const std::optional<HomingStop>& stop
     if (bench.faulted()) { return; }
     JobRecord job{.homing = true, .course = {}, .first_step = bench.steps_made(), .began = bench.vm().now()};
     const double seconds = homing_seconds(bench);
-    const Reply* reply = bench.ask(CommandKind::Home);
+    const Reply* reply = bench.ask_in_time(CommandKind::Home);
     if (reply == nullptr) { return; }
     const bool accepted = reply->status == ReplyStatus::Accepted;
     if (!accepted && !bench.disturbed_since(job.began)) { return bench.object("homing", answer_text(*reply)); }
