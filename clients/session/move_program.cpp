@@ -117,7 +117,7 @@ std::expected<int, std::string> chosen_probe(const MachineConfig& machine, std::
     if (probes.empty()) { return std::unexpected("the machine has no probe; write input { use: PROBE } in its file"); }
     const auto is_probe = [](const InputConfig& input) { return input.use == InputUse::Probe; };
     if (!number && has_several_probes(machine.inputs)) {
-        return std::unexpected("the machine has several probes; choose one with --probe:" + probes);
+        return std::unexpected("the machine has several probes; choose one by its number:" + probes);
     }
     const int chosen = number.value_or(std::ranges::find_if(machine.inputs, is_probe)->number.value_or(0));
     if (input_numbered(machine.inputs, InputUse::Probe, chosen) != nullptr) { return chosen; }

@@ -6,63 +6,27 @@
 #include <vector>
 
 #include "clients/lockstep/job/job.hpp"
-#include "clients/lockstep/values/values_text.hpp"
 #include "clients/session/control/lease_turn.hpp"
+#include "clients/session/control/open_probe.hpp"
 #include "clients/session/control/store_values.hpp"
 #include "clients/session/job_plan.hpp"
+#include "clients/session/measuring/keep_measurement.hpp"
+#include "clients/session/measuring/measuring_stream.hpp"
 #include "clients/session/move_program.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/session/waits.hpp"
 #include "clients/supervisor/machine_choice.hpp"
-#include "clients/text/format.hpp"
 #include "services/documents/heights/height_file.hpp"
-#include "services/documents/program_file.hpp"
 #include "services/files/text_file.hpp"
 
 namespace lockstep {
 namespace {
-
-/// An interpreter in machine coordinates: without the machine's offsets and tools.
-GcodeSetup setup_of(const MachineConfig& machine, const std::vector<double>& start_mm, const std::string& name) {
-    GcodeSetup setup = gcode_setup(machine, start_mm, name);
-    setup.find_subroutine = subroutines_of(machine);
-    return setup;
-}
-
-/// Fails if the probe touches now, so that nothing moves.
-std::expected<void, Failure> check_open(const Session& session, int probe) {
-    const proto::StatusReport status = status_report(session);
-    for (const proto::InputStatus& input : status.inputs()) {
-        const bool is_probe = input.use() == name_of(InputUse::Probe) && static_cast<int>(input.number()) == probe;
-        if (!is_probe || !input.closed()) { continue; }
-        return std::unexpected(failed("probe " + std::to_string(probe) + " touches already (input " + input.name() +
-                                      "); move it off what it touches, or check its wire"));
-    }
-    return {};
-}
 
 /// Fails if the file cannot be written, so that no measurement is lost.
 std::expected<void, Failure> check_file(const std::string& path) {
     if (path.empty()) { return {}; }
     const auto written = write_text_file(path, std::string(kHeightColumns) + "\n");
     return written ? std::expected<void, Failure>{} : std::unexpected(bad_input(written.error()));
-}
-
-/// The words of the axes that were measured.
-Changed set_zero(const MachineConfig& machine, const std::string& system, const proto::Measurement& measured,
-                 std::vector<double> places_mm, gcode::KeptValues& values) {
-    if (measured.has_angle_deg()) {
-        return set_offset(machine, system, {"R=" + fixed(measured.angle_deg(), 6)}, values);
-    }
-    ChangeWords words;
-    const auto put = [&](bool is_measured, const char* axis, double mm) {
-        if (!is_measured) { return; }
-        places_mm[find_axis(machine, axis).value()] = mm;
-        words.push_back(std::string(axis) + "=0");
-    };
-    put(measured.has_x_mm(), "X", measured.x_mm());
-    put(measured.has_y_mm(), "Y", measured.y_mm());
-    return touch_off(machine, places_mm, system, words, values);
 }
 
 /// Sets the coordinate system or the tool. Returns what was set.
@@ -73,9 +37,8 @@ std::expected<std::string, Failure> keep(Session& session, const MeasureVerbOpti
     if (!values) { return std::unexpected(values.error()); }
     gcode::KeptValues wanted = values->values;
     const bool sets_tool = measured.has_tool_length_mm();
-    const Changed changed = sets_tool
-                                ? set_tool(machine, options.tool, {"Z=" + fixed(measured.tool_length_mm(), 6)}, wanted)
-                                : set_zero(machine, options.set, measured, start_mm, wanted);
+    const Changed changed = sets_tool ? keep_in_tool(machine, options.tool, measured, wanted)
+                                      : keep_in_system(machine, options.set, measured, 0, start_mm, wanted);
     if (!changed) { return std::unexpected(bad_input(changed.error())); }
     if (const auto stored = store_values(session, *values, wanted); !stored) { return std::unexpected(stored.error()); }
     return sets_tool ? fmt::format("; the length of tool {} is set", options.tool) : "; " + options.set + " is set";
@@ -95,7 +58,7 @@ std::expected<MeasuringProgram, Failure> prepare(const MeasureVerbOptions& optio
                                                  const std::vector<double>& start_mm) {
     const MachineConfig& machine = session.config();
     auto program = measuring_program(machine, start_mm, options.measure);
-    if (!program) { return std::unexpected(bad_input(program.error())); }
+    if (!program) { return std::unexpected(bad_input(text_of(program.error()))); }
     gcode::KeptValues unused;
     if (!options.set.empty()) {
         if (const auto known = set_offset(machine, options.set, {"R=0"}, unused); !known) {
@@ -121,9 +84,9 @@ ExitCode run_measurement(const MeasureVerbOptions& options) {
     if (!program) { return output.fail(program.error()); }
     const auto values = await_values(*session);
     if (!values) { return output.fail(values.error()); }
-    const std::string name = "probe " + std::string(name_of(options.measure.kind));
-    ProgramStream stream(LineReader::of_text(program->text), setup_of(session->config(), *start_mm, name),
-                         values->revision);
+    const std::string name = title_of(options.measure.kind);
+    ProgramStream stream =
+        measuring_stream(session->config(), *start_mm, options.measure.kind, *program, values->revision);
     if (const auto read = stream.read_first(); !read) { return output.fail(bad_file(name, read.error())); }
     const auto conclude = [&](proto::RunReport& report) -> std::expected<std::string, Failure> {
         const auto measured = measurement_of(

@@ -6,6 +6,7 @@
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/values/values_text.hpp"
 #include "clients/session/session.hpp"
+#include "clients/session/values/value_words.hpp"
 #include "clients/text/exit_code.hpp"
 
 namespace lockstep {

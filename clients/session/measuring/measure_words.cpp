@@ -47,6 +47,10 @@ constexpr const char* kBoth = "write one word for X and one for Y, such as ";
 
 }  // namespace
 
+std::string text_of(const MeasureError& error) {
+    return error.option.empty() ? error.text : "--" + error.option + " " + error.text;
+}
+
 std::expected<Way, std::string> one_way(const std::vector<std::string>& words) {
     if (words.size() == 1) { return way_of(words.front()); }
     return std::unexpected(
@@ -77,11 +81,11 @@ std::expected<std::array<Range, 2>, std::string> both_ranges(const std::vector<s
     return std::unexpected(std::string(kBoth) + "X=10:190 Y=10:90");
 }
 
-std::expected<void, std::string> check_range(const std::string& option, double value, double least, double most,
-                                             const std::string& unit) {
+std::expected<void, MeasureError> check_range(const std::string& option, double value, double least, double most,
+                                              const std::string& unit) {
     if (value >= least && value <= most) { return {}; }
-    return std::unexpected(fmt::format("{} is {}; it must be from {} to {} {}", option, number_text(value),
-                                       number_text(least), number_text(most), unit));
+    return std::unexpected(MeasureError{option, fmt::format("is {}; it must be from {} to {} {}", number_text(value),
+                                                            number_text(least), number_text(most), unit)});
 }
 
 }  // namespace lockstep

@@ -20,6 +20,15 @@ struct Range {
     double to_mm = 0;  // above from_mm
 };
 
+/// Why something cannot be measured.
+struct MeasureError {
+    std::string option;  // whose value is wrong, such as feed; empty if it is none of them
+    std::string text;    // "is 0; it must be from 1 to 5 mm", or without an option a sentence
+};
+
+/// "--feed is 0; it must be from 1 to 5 mm/min": as an option of a command.
+std::string text_of(const MeasureError& error);
+
 /// Exactly one word, "X=10" or "Y=-10".
 std::expected<Way, std::string> one_way(const std::vector<std::string>& words);
 /// A word for X and one for Y.
@@ -27,8 +36,8 @@ std::expected<std::array<double, 2>, std::string> both_ways(const std::vector<st
 /// A range for X and one for Y.
 std::expected<std::array<Range, 2>, std::string> both_ranges(const std::vector<std::string>& words);
 
-/// Error: the option's name, its value and its range with the unit.
-std::expected<void, std::string> check_range(const std::string& option, double value, double least, double most,
-                                             const std::string& unit);
+/// Error: the option, its value and its range with the unit.
+std::expected<void, MeasureError> check_range(const std::string& option, double value, double least, double most,
+                                              const std::string& unit);
 
 }  // namespace lockstep

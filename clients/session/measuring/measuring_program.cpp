@@ -17,8 +17,9 @@ namespace {
 
 constexpr std::array<const char*, 3> kNames{"X", "Y", "Z"};
 using Place = std::array<double, 3>;
-using Error = std::unexpected<std::string>;
-using Checked = std::expected<void, std::string>;
+using Checked = std::expected<void, MeasureError>;
+
+std::unexpected<MeasureError> error(std::string text) { return std::unexpected(MeasureError{{}, std::move(text)}); }
 
 /// The text of one measurement.
 class MeasuringText {
@@ -26,15 +27,15 @@ public:
     MeasuringText(const MachineConfig& machine, const std::vector<double>& start_mm, const MeasureOptions& options)
         : machine_(machine), start_mm_(start_mm), options_(options) {}
 
-    std::expected<MeasuringProgram, std::string> write() {
+    std::expected<MeasuringProgram, MeasureError> write() {
         const auto probe = chosen_probe(machine_, options_.probe);
-        if (!probe) { return Error(probe.error()); }
+        if (!probe) { return error(probe.error()); }
         made_.probe = *probe;
-        if (auto checked = find_axes(); !checked) { return Error(checked.error()); }
-        if (auto checked = check_values(); !checked) { return Error(checked.error()); }
+        if (auto checked = find_axes(); !checked) { return std::unexpected(checked.error()); }
+        if (auto checked = check_values(); !checked) { return std::unexpected(checked.error()); }
         made_.text = "G21 G90 G94 G17 G40 G49 G54\n";
         const auto written = write_call();
-        if (!written) { return Error(written.error()); }
+        if (!written) { return std::unexpected(written.error()); }
         return std::move(made_);
     }
 
@@ -42,7 +43,7 @@ private:
     Checked find_axes() {
         for (std::size_t i = 0; i < kNames.size(); ++i) {
             const auto axis = find_axis(machine_, kNames[i]);
-            if (!axis) { return Error(axis.error() + "; measuring needs axes X, Y and Z"); }
+            if (!axis) { return error(axis.error() + "; measuring needs axes X, Y and Z"); }
             axes_[i] = *axis;
             from_[i] = start_mm_[*axis];
         }
@@ -51,11 +52,11 @@ private:
 
     Checked check_values() const {
         constexpr double kMostFeed = kMaxFeed_mm_s * 60 / 10;  // ways beside the work have ten times as much
-        if (auto in = check_range("--feed", options_.feed_mm_min, kMinFeedPerMinute, kMostFeed, "mm/min"); !in) {
+        if (auto in = check_range("feed", options_.feed_mm_min, kMinFeedPerMinute, kMostFeed, "mm/min"); !in) {
             return in;
         }
-        if (auto in = check_range("--back", options_.back_mm, 0.01, 100, "mm"); !in) { return in; }
-        return check_range("--tip", options_.tip_mm, 0, 50, "mm");
+        if (auto in = check_range("back", options_.back_mm, 0.01, 100, "mm"); !in) { return in; }
+        return check_range("tip", options_.tip_mm, 0, 50, "mm");
     }
 
     Checked write_call() {
@@ -78,7 +79,7 @@ private:
         const bool is_within =
             to >= config.position_min_mm - kTravelTolerance_mm && to <= config.position_max_mm + kTravelTolerance_mm;
         if (is_within) { return {}; }
-        return Error(
+        return error(
             fmt::format("the probe could go to {}={}, outside the travel of axis {}, {} to {} mm; begin "
                         "elsewhere, or choose a shorter way",
                         config.name, fixed(to, 3), config.name, fixed(config.position_min_mm, 3),
@@ -103,7 +104,7 @@ private:
 
     Checked edge() {
         const auto way = one_way(options_.words);
-        if (!way) { return Error(way.error()); }
+        if (!way) { return error(way.error()); }
         if (auto within = reach(way->axis, with_back(way->mm)); !within) { return within; }
         call("edge",
              {way->axis == 0 ? way->mm : 0, way->axis == 1 ? way->mm : 0, options_.tip_mm, feed(), back(), probe(), 0});
@@ -112,9 +113,9 @@ private:
 
     Checked angle() {
         const auto way = one_way(options_.words);
-        if (!way) { return Error(way.error()); }
+        if (!way) { return error(way.error()); }
         const double along = options_.along_mm;
-        if (auto in = check_range("--along", std::abs(along), 0.1, 1e5, "mm, or less than -0.1"); !in) { return in; }
+        if (auto in = check_range("along", std::abs(along), 0.1, 1e5, "mm, or less than -0.1"); !in) { return in; }
         if (auto within = reach_all({{way->axis, with_back(way->mm)}, {1 - way->axis, along}}); !within) {
             return within;
         }
@@ -124,9 +125,9 @@ private:
 
     Checked corner() {
         const auto to = both_ways(options_.words);
-        if (!to) { return Error(to.error()); }
+        if (!to) { return error(to.error()); }
         const double beside = options_.clearance_mm;
-        if (auto in = check_range("--beside", beside, 0.1, 1e4, "mm"); !in) { return in; }
+        if (auto in = check_range("beside", beside, 0.1, 1e4, "mm"); !in) { return in; }
         for (const std::size_t axis : {0U, 1U}) {
             const double way = (*to)[axis];
             const double farthest = std::max(2 * std::abs(way) + back(), std::abs(way) + beside);
@@ -140,10 +141,11 @@ private:
     static constexpr double kOffCentre = 0.2;
 
     Checked check_diameter() const {
-        if (auto in = check_range("--diameter", options_.diameter_mm, 0.1, 1e4, "mm"); !in) { return in; }
+        if (auto in = check_range("diameter", options_.diameter_mm, 0.1, 1e4, "mm"); !in) { return in; }
         if (options_.tip_mm < options_.diameter_mm) { return {}; }
-        return Error(fmt::format("--tip {} is out of range; it must be below --diameter, {} mm",
-                                 fixed(options_.tip_mm, 3), fixed(options_.diameter_mm, 3)));
+        return std::unexpected(
+            MeasureError{"tip", fmt::format("is {}; it must be below the diameter, {} mm", fixed(options_.tip_mm, 3),
+                                            fixed(options_.diameter_mm, 3))});
     }
 
     Checked bore() {
@@ -155,9 +157,9 @@ private:
     }
 
     Checked boss() {
-        if (auto in = check_range("--diameter", options_.diameter_mm, 0.1, 1e4, "mm"); !in) { return in; }
-        if (auto in = check_range("--down", options_.down_mm, 0.01, 1e4, "mm"); !in) { return in; }
-        if (auto in = check_range("--clearance", options_.clearance_mm, 0.1, 1e4, "mm"); !in) { return in; }
+        if (auto in = check_range("diameter", options_.diameter_mm, 0.1, 1e4, "mm"); !in) { return in; }
+        if (auto in = check_range("down", options_.down_mm, 0.01, 1e4, "mm"); !in) { return in; }
+        if (auto in = check_range("clearance", options_.clearance_mm, 0.1, 1e4, "mm"); !in) { return in; }
         const double side = (0.5 + kOffCentre) * options_.diameter_mm + options_.tip_mm / 2 + options_.clearance_mm;
         if (auto within = reach_all({{0, -side}, {0, side}, {1, -side}, {1, side}, {2, -options_.down_mm}}); !within) {
             return within;
@@ -168,23 +170,24 @@ private:
     }
 
     Checked tool() {
-        if (auto in = check_range("--down", options_.down_mm, 0.01, 1e4, "mm"); !in) { return in; }
+        if (auto in = check_range("down", options_.down_mm, 0.01, 1e4, "mm"); !in) { return in; }
         if (auto within = reach(2, with_back(-options_.down_mm)); !within) { return within; }
         call("tool", {options_.down_mm, options_.setter_mm, feed(), back(), probe(), 0});
         return {};
     }
 
     Checked surface() {
-        if (auto in = check_range("--down", options_.down_mm, 0.01, 1e4, "mm"); !in) { return in; }
-        if (auto in = check_range("--spacing", options_.spacing_mm, 0.1, 1e4, "mm"); !in) { return in; }
+        if (auto in = check_range("down", options_.down_mm, 0.01, 1e4, "mm"); !in) { return in; }
+        if (auto in = check_range("spacing", options_.spacing_mm, 0.1, 1e4, "mm"); !in) { return in; }
         const auto ranges = both_ranges(options_.words);
-        if (!ranges) { return Error(ranges.error()); }
+        if (!ranges) { return error(ranges.error()); }
         SurfaceGrid grid{points((*ranges)[0]), points((*ranges)[1])};
         if (grid.x_mm.size() * grid.y_mm.size() > HeightMap::kMostPoints) {
-            return Error(
-                fmt::format("the grid has {} points in X and {} in Y; it can have at most {} in all: choose a "
-                            "greater --spacing",
-                            grid.x_mm.size(), grid.y_mm.size(), HeightMap::kMostPoints));
+            return std::unexpected(MeasureError{
+                "spacing", fmt::format("is {} mm, which makes {} points in X and {} in Y; there can be at most {} in "
+                                       "all: choose a greater one",
+                                       fixed(options_.spacing_mm, 3), grid.x_mm.size(), grid.y_mm.size(),
+                                       HeightMap::kMostPoints)});
         }
         for (const std::size_t axis : {0U, 1U}) {
             for (const double mm : {(*ranges)[axis].from_mm, (*ranges)[axis].to_mm}) {
@@ -225,9 +228,9 @@ std::string_view name_of(MeasureKind kind) {
     return pick_name({"edge", "angle", "corner", "bore", "boss", "tool", "surface"}, kind);
 }
 
-std::expected<MeasuringProgram, std::string> measuring_program(const MachineConfig& machine,
-                                                               const std::vector<double>& start_mm,
-                                                               const MeasureOptions& options) {
+std::expected<MeasuringProgram, MeasureError> measuring_program(const MachineConfig& machine,
+                                                                const std::vector<double>& start_mm,
+                                                                const MeasureOptions& options) {
     return MeasuringText(machine, start_mm, options).write();
 }
 

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "clients/session/measuring/measure_words.hpp"
 #include "core/machine.hpp"
 #include "idl/proto/report.pb.h"
 
@@ -49,9 +50,9 @@ struct MeasuringProgram {
 
 /// `start_mm`: where the axes stand. Errors, with the value, the limit and the remedy: the machine lacks X, Y, Z or the
 /// probe; a value is missing or out of range; the axes could leave their travel; the grid has too many points.
-std::expected<MeasuringProgram, std::string> measuring_program(const MachineConfig& machine,
-                                                               const std::vector<double>& start_mm,
-                                                               const MeasureOptions& options);
+std::expected<MeasuringProgram, MeasureError> measuring_program(const MachineConfig& machine,
+                                                                const std::vector<double>& start_mm,
+                                                                const MeasureOptions& options);
 
 /// The result of a program that was run to its end. `global`: its values by their names. `touches_z_mm`:
 /// the places of Z at its touches, in order. Nullopt: the program has not set its result.

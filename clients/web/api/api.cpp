@@ -92,6 +92,7 @@ const std::vector<Api::Row>& Api::rows() {
         {"GET", "/api/program", false, &Api::show_program},
         {"GET", "/api/program/path", false, &Api::show_path},
         {"GET", "/api/mdi", false, &Api::show_mdi},
+        {"GET", "/api/heights", false, &Api::show_heights},
         {"GET", "/api/reports", false, &Api::list_reports},
         {"GET", "/api/reports/*", false, &Api::show_report},
     };
@@ -102,7 +103,8 @@ Api::Api(const ApiParts& parts, AccessRules rules)
     : parts_(parts),
       access_(std::move(rules)),
       stream_names_(fmt::format("s{}-", monotonic_now().count() & 0xffffff)),
-      mdi_(parts.machine) {}
+      mdi_(parts.machine),
+      orders_(parts.machine, parts.port, parts.desk, mdi_) {}
 
 Intake Api::intake(const Request& head) const {
     if (refuse_head(head) || access_.refuse_foreign(head)) { return {.is_refused = true}; }

@@ -10,6 +10,7 @@
 
 #include "clients/web/api/access.hpp"
 #include "clients/web/api/assets.hpp"
+#include "clients/web/api/machine_orders.hpp"
 #include "clients/web/api/replay_guard.hpp"
 #include "clients/web/api/report_files.hpp"
 #include "clients/web/http/message.hpp"
@@ -64,13 +65,10 @@ private:
     void show_program(Request&& request, const Answer& answer);
     void show_path(Request&& request, const Answer& answer);
     void show_mdi(Request&& request, const Answer& answer);
+    void show_heights(Request&& request, const Answer& answer);
     void list_reports(Request&& request, const Answer& answer);
     void show_report(Request&& request, const Answer& answer);
 
-    void carry_out(const Order& order, const Done& done);
-    void run(const RunOrder& order, const Done& done);
-    void run_line(const MdiOrder& order, const Done& done);
-    void touch(const TouchOrder& order, const Done& done);
     nlohmann::json state_of(const Snapshot& snapshot) const;
     void note_begin(const std::string& stream);
     void note_end(const std::string& stream);
@@ -85,6 +83,7 @@ private:
     std::set<std::string> streams_;         // the names of those that are open
     std::atomic<std::size_t> viewers_ = 0;  // the number of streams_
     MdiSession mdi_;
+    MachineOrders orders_;
 };
 
 }  // namespace lockstep::web

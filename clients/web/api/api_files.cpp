@@ -102,6 +102,20 @@ void Api::show_path(Request&& request, const Answer& answer) {
     if (!taken) { answer(to_response(desk_is_full())); }
 }
 
+void Api::show_heights(Request&&, const Answer& answer) {
+    const auto snapshot = parts_.port.snapshot();
+    const auto& measurement = snapshot->measurement;
+    if (!measurement || !measurement->result || measurement->result->measured.points().empty()) {
+        Problem none = nothing_measured("the heights of a surface");
+        none.status = 404;
+        return answer(to_response(none));
+    }
+    answer({.body = csv_of(measurement->result->measured),
+            .headers = {{"Content-Type", "text/csv; charset=utf-8"},
+                        {"Content-Disposition", "attachment; filename=\"heights.csv\""},
+                        {"Lockstep-Measurement", std::to_string(measurement->number)}}});
+}
+
 void Api::list_reports(Request&&, const Answer& answer) {
     const bool taken = parts_.desk.add([this, answer] { answer(json_response(parts_.reports.list())); });
     if (!taken) { answer(to_response(desk_is_full())); }

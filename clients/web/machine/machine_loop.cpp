@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "clients/session/control/open_probe.hpp"
 #include "core/protocol/needs_lease.hpp"
 #include "services/runtime/clock.hpp"
 
@@ -22,6 +23,14 @@ Problem too_many() {
             .detail = fmt::format("{} commands wait for the machine", ActionQueue::kMostActions),
             .limit = std::to_string(ActionQueue::kMostActions),
             .remedy = "wait for their answers"};
+}
+
+/// Several touches begin with an open probe. A single one may begin with a closed one, to move off.
+std::optional<Problem> closed_probe(const Session& session, const MeasurePlan& plan) {
+    if (plan.options() == nullptr) { return std::nullopt; }
+    const auto open = check_open(session, plan.program.probe);
+    if (open) { return std::nullopt; }
+    return refused(FaultCode::ProbeTouchedEarly, open.error().errors.front().message);
 }
 
 }  // namespace
@@ -55,27 +64,39 @@ void MachineLoop::jog(const JogOrder& order, Done done) {
 
 void MachineLoop::run(ReadyProgram&& program, Done done) {
     const auto shared = std::make_shared<ReadyProgram>(std::move(program));
-    add([this, shared, done] { run_task(*shared, done); }, done);
+    add([this, shared, done] { run_first(*shared, done); }, done);
+}
+
+void MachineLoop::run_first(const ReadyProgram& program, const Done& done) {
+    if (!program.measures) { return run_task(program, done); }
+    if (const auto closed = closed_probe(session_, *program.measures)) { return done(std::unexpected(*closed)); }
+    const auto noted = [this, plan = program.measures, done](Outcome&& outcome) {
+        if (outcome) { measuring_.begin(plan); }
+        done(std::move(outcome));
+    };
+    run_task(program, noted);
 }
 
 void MachineLoop::run_task(const ReadyProgram& program, const Done& done) {
     const auto begun = [this, program](std::uint64_t job) {
         job_ = OwnJob{job, program.facts};
-        if (program.stream) { probing_.emplace(program, job); }
+        if (program.stream || program.measures) { probing_.emplace(program, job); }
     };
     start(std::make_unique<RunTask>(ReadyProgram(program), begun, shown(done)), done);
 }
 
-/// Nobody waits for the answer to a next part: the machine's state shows the job.
+/// Nobody waits for the answer to a next part: the machine's state shows the job, and the measurement.
 void MachineLoop::run_next_part() {
     if (!probing_) { return; }
     const ProbingRun::State state = probing_->poll(session_);
     if (state == ProbingRun::State::Runs) { return; }
-    const ReadyProgram next = probing_->next();
-    probing_.reset();
-    if (state == ProbingRun::State::Ready) {
-        run_task(next, [](Outcome&&) {});
-    }
+    const ProbingRun run = *std::exchange(probing_, std::nullopt);
+    const bool measures = run.next().measures != nullptr;
+    if (measures) { measuring_.note(run, session_.config()); }
+    if (state != ProbingRun::State::Ready) { return; }
+    run_task(run.next(), [this, measures](Outcome&& outcome) {
+        if (measures && !outcome) { measuring_.fail(outcome.error()); }
+    });
 }
 
 void MachineLoop::change_values(ValuesTask::Change change, Done done) {
@@ -129,6 +150,7 @@ void MachineLoop::work(const std::stop_token& stop) {
 void MachineLoop::show() {
     auto snapshot = std::make_shared<Snapshot>(snapshots_.take());
     snapshot->job = job_;
+    snapshot->measurement = measuring_.newest();
     snapshot->writer = lease_.writer();
     const std::lock_guard lock(mutex_);
     snapshot_ = std::move(snapshot);

@@ -10,6 +10,7 @@
 
 #include "clients/web/machine/action_queue.hpp"
 #include "clients/web/machine/jog_turn.hpp"
+#include "clients/web/machine/measuring.hpp"
 #include "clients/web/machine/port.hpp"
 #include "clients/web/machine/probing_run.hpp"
 #include "clients/web/machine/session_lease.hpp"
@@ -45,6 +46,7 @@ private:
     bool is_sending() const;
     /// True while a command, a jog or a job of this server is under way.
     bool has_work() const;
+    void run_first(const ReadyProgram& program, const Done& done);
     void run_task(const ReadyProgram& program, const Done& done);
     void run_next_part();
     bool is_own_job() const;
@@ -62,6 +64,7 @@ private:
     SnapshotTaker snapshots_;
     std::optional<OwnJob> job_;
     std::optional<ProbingRun> probing_;  // of that job, if its program may go on behind a touch
+    Measuring measuring_;
     std::chrono::nanoseconds published_{};
 
     ActionQueue actions_;

@@ -21,13 +21,25 @@ public:
     };
     /// Call it in each loop until it is not Runs. Reads the next part's first lines.
     State poll(const Session& session);
-    ReadyProgram next() const { return program_; }
+    const ReadyProgram& next() const { return program_; }
+
+    /// Of the present part, when it is not Runs.
+    const std::optional<ProbeTouch>& touch() const { return touch_; }
+    /// Nothing more is to run.
+    bool is_over() const { return is_over_; }
+    /// Of a program that is over: why it was not run to its end.
+    const std::optional<Problem>& problem() const { return problem_; }
 
 private:
+    bool awaits_touch() const;
+    State end(std::optional<Problem> problem);
     State read_on(const Session& session);
 
     ReadyProgram program_;
     std::uint64_t job_;
+    std::optional<ProbeTouch> touch_;
+    bool is_over_ = false;
+    std::optional<Problem> problem_;
     std::optional<std::chrono::nanoseconds> ended_;
 };
 

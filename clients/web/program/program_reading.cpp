@@ -74,15 +74,12 @@ std::expected<LineReader, std::string> lines_of_text(const std::string& text) {
     return LineReader::open(fmt::format("/proc/self/fd/{}", file.get()));
 }
 
-std::expected<ReadyProgram, Problem> ready_stream(const LoadedProgram& program, const GcodeSetup& setup,
-                                                  const ProgramStart& start) {
+std::expected<ReadyProgram, Problem> ready_lines(const LoadedProgram& program, const GcodeSetup& setup,
+                                                 const ProgramStart& start) {
     auto lines = lines_of_text(*program.text);
     if (!lines) { return std::unexpected(wrong_program({{.message = lines.error()}})); }
-    auto stream = std::make_shared<ProgramStream>(*std::move(lines), setup, start.values.revision);
-    if (auto read = stream->read_first(); !read) { return std::unexpected(wrong_program(read.error())); }
-    return ReadyProgram{stream->head(), stream->values(),
-                        [stream](ProgramSender& sender) { stream->feed(sender, monotonic_now()); }, program.facts,
-                        stream};
+    return ready_stream(std::make_shared<ProgramStream>(*std::move(lines), setup, start.values.revision),
+                        program.facts);
 }
 
 std::expected<void, Problem> check_phase(const Snapshot& snapshot) {
@@ -111,6 +108,15 @@ Problem wrong_program(const Diagnostics& errors) {
             .place = "body",
             .remedy = "correct the lines and send it again",
             .errors = errors};
+}
+
+std::expected<ReadyProgram, Problem> ready_stream(std::shared_ptr<ProgramStream> stream,
+                                                  std::shared_ptr<const ProgramFacts> facts,
+                                                  std::shared_ptr<const MeasurePlan> measures) {
+    if (auto read = stream->read_first(); !read) { return std::unexpected(wrong_program(read.error())); }
+    return ReadyProgram{
+        stream->head(),   stream->values(), [stream](ProgramSender& sender) { stream->feed(sender, monotonic_now()); },
+        std::move(facts), stream,           std::move(measures)};
 }
 
 ProgramUpload::Feed feed_of(std::vector<Block>&& blocks) {
@@ -170,10 +176,10 @@ std::expected<LoadedProgram, Problem> load_program(std::string text, const std::
 std::expected<ReadyProgram, Problem> ready_program(const LoadedProgram& program, const MachineConfig& machine,
                                                    const ProgramStart& start) {
     const GcodeSetup setup = setup_of(program.facts->name, machine, start);
-    if (program.text->size() > kShort_bytes) { return ready_stream(program, setup, start); }
+    if (program.text->size() > kShort_bytes) { return ready_lines(program, setup, start); }
     auto reading = read_gcode(*program.text, setup);
     if (!reading) { return std::unexpected(wrong_program(to_diagnostics(reading.error()))); }
-    if (does_probe(reading->program)) { return ready_stream(program, setup, start); }
+    if (does_probe(reading->program)) { return ready_lines(program, setup, start); }
     gcode::ProgramValues values{.revision = start.values.revision, .after = {}};
     if (reading->values != start.values.values) { values.after = std::move(reading->values); }
     const ProgramHead head = reading->program.head();

@@ -9,6 +9,7 @@
 #include "clients/session/program_stream.hpp"
 #include "clients/session/upload/program_upload.hpp"
 #include "clients/web/http/message.hpp"
+#include "clients/web/measuring/measurement.hpp"
 #include "clients/web/program/path_points.hpp"
 #include "clients/web/request/problem.hpp"
 #include "clients/web/state/snapshot.hpp"
@@ -43,13 +44,19 @@ struct ReadyProgram {
     gcode::ProgramValues values;
     ProgramUpload::Feed feed;
     std::shared_ptr<const ProgramFacts> facts;
-    std::shared_ptr<ProgramStream> stream = {};  // that `feed` sends; null if it was read as a whole
+    std::shared_ptr<ProgramStream> stream = {};        // that `feed` sends; null if it was read as a whole
+    std::shared_ptr<const MeasurePlan> measures = {};  // null unless it measures with a probe
 };
 
 /// Reads the first part here of a program that is long or probes; the rest is read while it runs. Fails with 422 like
 /// load_program().
 std::expected<ReadyProgram, Problem> ready_program(const LoadedProgram& program, const MachineConfig& machine,
                                                    const ProgramStart& start);
+
+/// Reads the stream's first part. Fails with 422 like load_program().
+std::expected<ReadyProgram, Problem> ready_stream(std::shared_ptr<ProgramStream> stream,
+                                                  std::shared_ptr<const ProgramFacts> facts,
+                                                  std::shared_ptr<const MeasurePlan> measures = {});
 
 /// Passes the blocks to a session's sender as it has room for them.
 ProgramUpload::Feed feed_of(std::vector<Block>&& blocks);

@@ -202,6 +202,14 @@ std::optional<Order> tool(const Json& body, const MachineConfig& machine, std::o
     return order;
 }
 
+std::optional<Order> probe(const Json& body, const MachineConfig&, std::optional<Problem>& problem) {
+    return read_measure(body, problem);
+}
+
+std::optional<Order> keep(const Json& body, const MachineConfig&, std::optional<Problem>& problem) {
+    return read_keep(body, problem);
+}
+
 const std::vector<std::pair<std::string, Read>>& readers() {
     static const std::vector<std::pair<std::string, Read>> kReaders{
         {"home", home},
@@ -217,6 +225,8 @@ const std::vector<std::pair<std::string, Read>>& readers() {
         {"touch", touch},
         {"offset", offset},
         {"tool", tool},
+        {"probe", probe},
+        {"keep", keep},
         {"take", lease<true>},
         {"give", lease<false>},
     };

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "clients/web/request/measure_order.hpp"
 #include "clients/web/request/problem.hpp"
 #include "core/machine.hpp"
 #include "core/protocol/messages.hpp"
@@ -61,7 +62,8 @@ struct LeaseOrder {
     bool takes = false;  // even from another writer; false gives it back
 };
 
-using Order = std::variant<Command, JogOrder, RunOrder, MdiOrder, TouchOrder, OffsetOrder, ToolOrder, LeaseOrder>;
+using Order = std::variant<Command, JogOrder, RunOrder, MdiOrder, TouchOrder, OffsetOrder, ToolOrder, LeaseOrder,
+                           MeasureOrder, KeepOrder>;
 
 /// In the order of openapi.yaml.
 const std::vector<std::string>& verbs();

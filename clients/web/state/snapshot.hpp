@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "clients/web/measuring/measurement.hpp"
 #include "core/protocol/axis_health.hpp"
 #include "core/protocol/messages.hpp"
 #include "services/documents/values/values_document.hpp"
@@ -94,6 +95,7 @@ struct Snapshot {
     std::optional<nanoseconds> values_unsaved_since;  // not on the coordinator's disk since then; none: they are
     std::optional<OwnJob> job;
     std::optional<Writer> writer;
+    std::optional<Measurement> measurement;  // the newest of this server
 };
 
 }  // namespace lockstep::web

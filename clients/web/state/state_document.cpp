@@ -6,6 +6,7 @@
 #include "clients/web/state/axis_document.hpp"
 #include "clients/web/state/devices_document.hpp"
 #include "clients/web/state/inputs_document.hpp"
+#include "clients/web/state/measurement_document.hpp"
 #include "clients/web/state/outputs_document.hpp"
 #include "clients/web/state/pause_document.hpp"
 #include "clients/web/state/writer_document.hpp"
@@ -159,6 +160,7 @@ json state_document(const Snapshot& snapshot, const MachineConfig& machine, cons
             {"tools", tools_json(snapshot, machine)},
             {"devices", snapshot.machine ? devices_document(snapshot.machine->value.devices) : json()},
             {"writer", snapshot.writer ? writer_json(*snapshot.writer) : json()},
+            {"measurement", snapshot.measurement ? measurement_document(*snapshot.measurement) : json()},
             {"modes", modes.words},
             {"viewers", viewers}};
 }

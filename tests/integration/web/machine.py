@@ -24,15 +24,16 @@ def own_network():
 class Machine:
     """Up on entry, down on exit. `port` and `tokens` are those of the server."""
 
-    def __init__(self, root, programs, example="two-axis", name=None):
+    def __init__(self, root, programs, example="two-axis", name=None, slot_us=20000):
         self.root = pathlib.Path(root)
         self.programs = pathlib.Path(programs)
         self.work = pathlib.Path(tempfile.mkdtemp())
         self.name = name or f"web{os.getpid()}"
         text = (self.root / "deploy/examples" / f"{example}.textproto").read_text()
         text = re.sub(r'^name: .*', f'name: "{self.name}"', text, count=1, flags=re.M)
-        # Slots that allow a busy host to stall a process for 200 ms.
-        text = re.sub(r"slot_us: \d+", "slot_us: 20000", text) if "slot_us" in text else text + "\ntiming { slot_us: 20000 }\n"
+        # With the default, slots that allow a busy host to stall a process for 200 ms.
+        timing = f"slot_us: {slot_us}"
+        text = re.sub(r"slot_us: \d+", timing, text) if "slot_us" in text else f"{text}\ntiming {{ {timing} }}\n"
         (self.work / "machine.textproto").write_text(text)
         self.reports = self.work / "reports"
         self.reports.mkdir()

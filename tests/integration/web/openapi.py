@@ -32,11 +32,15 @@ BODIES = {
     "offset": ({"system": "G55", "origin": {"X": 0}, "rotation_deg": 0}, [{}, {"system": 1}, {"system": "G54", "origin": 1}]),
     "tool": ({"number": 3, "pocket": 1, "offset": {"X": 1}, "diameter": 6},
              [{}, {"number": 0}, {"number": 1, "diameter": -1}, {"number": 1.5}, {"number": 1, "remove": "yes"}]),
+    "probe": ({"kind": "touch", "to": {"X": 20}, "feed": 60},
+              [{}, {"kind": "hole", "feed": 60}, {"kind": "touch", "to": {}, "feed": 60}, {"kind": "touch", "to": {"X": "1"}, "feed": 60}]),
+    "keep": ({"system": "G55", "reads": 1}, [{}, {"system": 1}, {"tool": 0}]),
     "take": ({}, []),
     "give": ({}, []),
 }
-# One client cannot cause this for certain: a full queue.
-NOT_ASKED = {("POST", "/api/commands/{verb}", 429), ("POST", "/api/program", 409)}
+# One client cannot cause this for certain: a full queue. This machine has no probe: integration.web_page_measures asks for
+# the heights of a surface.
+NOT_ASKED = {("POST", "/api/commands/{verb}", 429), ("POST", "/api/program", 409), ("GET", "/api/heights", 200)}
 
 
 def check_routes(root, contract):
@@ -84,6 +88,9 @@ def check_accepted(client):
     give(client, "home", "Idle")
     client.await_state(lambda s: all(axis["homed"] for axis in s["axes"].values()) and s["mode"] == "Idle")
     give(client, "touch")
+    expect("has no probe" in refused(client.command("probe", BODIES["probe"][0]), 422, "not-measurable")["detail"], "another reason")
+    refused(client.command("keep", BODIES["keep"][0]), 409, "no-measurement")
+    refused(client.get("/api/heights"), 404, "no-measurement")
     give(client, "mdi", "Running")
     client.await_state(lambda s: s["mode"] == "Idle")
     long = "G21 G90\n" + "G1 X100 F600\nG1 X10\n" * 20 + "M2\n"

@@ -370,6 +370,35 @@ describe("outputs", () => {
   });
 });
 
+describe("a probe", () => {
+  const chosen = async (page) => {
+    await page.getByRole("tab", { name: "Probe" }).click();
+    return page.getByRole("tabpanel", { name: "Probe" });
+  };
+
+  test("is missed where the machine has none, with the reason", async () => {
+    const tab = await chosen(await enter());
+    await tab.getByText("This machine has no probe").waitFor();
+    assert.equal(await tab.getByRole("button", { name: "Start" }).count(), 0);
+  });
+
+  test("is asked for what its kind needs, and shows its touches and why it found nothing", async () => {
+    machine.haveAProbe();
+    const page = await enter();
+    const tab = await chosen(page);
+    await tab.getByLabel("Measure").selectOption("bore");
+    for (const [label, value] of [["Diameter about, mm", "25"], ["Tip diameter, mm", "2"]]) await tab.getByLabel(label).fill(value);
+    await tab.getByRole("button", { name: "Start" }).click();
+    await until("the command", () => machine.commands.some(({ verb }) => verb === "probe"));
+    assert.deepEqual(machine.commands.at(-1), { verb: "probe", body: { kind: "bore", diameter: 25, tip: 2, feed: 60, back: 1 } });
+    machine.state.measurement = { number: 1, kind: "bore", touches: 3, points: null, result: null, problem: null };
+    await tab.getByText("Bore: 3 touches so far").waitFor();
+    machine.state.measurement.problem = { type: "about:blank", title: "no touch", status: 409, code: "probe-not-touched", detail: "the move ended without a touch", remedy: "check the probe; then: {reset}" };
+    await tab.getByText("the move ended without a touch Remedy: check the probe; then: Reset").waitFor();
+    assert.equal(await tab.getByRole("button", { name: "Set zero or rotation" }).count(), 0);
+  });
+});
+
 describe("settings", () => {
   test("overrides, work offsets and tools go to the machine and come back", async () => {
     const page = await enter();

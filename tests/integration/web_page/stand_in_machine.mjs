@@ -62,7 +62,7 @@ export class StandInMachine {
     override: { feed_percent: 100, rapid_percent: 100 }, alarms: [], axes: { X: axisState(5), Y: axisState(5), Z: axisState(58) }, motors: {}, boards: {}, inputs: {}, outputs: {},
     offsets: { revision: 1, active: "G54", systems: Object.fromEntries(MACHINE.coordinate_systems.map((s) => [s, { origin: {}, rotation_deg: 0 }])), g92: null },
     tools: { 1: { pocket: 1, offset: { Z: 42.5 }, diameter: 6 }, 2: { pocket: 2, offset: { Z: 38.1 }, diameter: 3 } }, 
-    devices: { spindle: { direction: "stopped", rpm: 0 }, mist: false, flood: false, tool: null, outputs: [] }, writer: null,
+    devices: { spindle: { direction: "stopped", rpm: 0 }, mist: false, flood: false, tool: null, outputs: [] }, writer: null, measurement: null,
     modes: ["G80", "G54", "G17", "G21", "G90", "G94", "M5", "M9", "T0", "F0", "S0"], viewers: 1,
   };
 
@@ -86,6 +86,12 @@ export class StandInMachine {
     const inputs = [{ name: "stop", motor: "X", board: null, use: "emergency-stop", number: null }, { name: "door", motor: "Y", board: null, use: "door", number: null }, { name: "tool", motor: "Z", board: null, use: "program", number: 3 }];
     this.description = { ...this.description, inputs };
     this.state.inputs = Object.fromEntries(inputs.map(({ name }) => [name, false]));
+  }
+
+  /** Call it before the page is opened. */
+  haveAProbe() {
+    this.description = { ...this.description, inputs: [{ name: "tip", motor: "Z", board: null, use: "probe", number: 0 }] };
+    this.state.inputs = { tip: false };
   }
 
   /** All are off, as the program asks. Call it before the page is opened. */

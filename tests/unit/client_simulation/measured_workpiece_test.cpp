@@ -26,7 +26,7 @@ protected:
     std::optional<proto::Measurement> measure(const MeasureOptions& options, double x, double y, double z) {
         const auto program = measuring_program(machine, {x, y, z}, options);
         if (!program) {
-            ADD_FAILURE() << program.error();
+            ADD_FAILURE() << text_of(program.error());
             return std::nullopt;
         }
         GcodeSetup setup = gcode_setup(machine, parked_mm(machine), "measure");

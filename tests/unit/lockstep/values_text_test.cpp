@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "clients/session/values/value_words.hpp"
+
 namespace lockstep {
 namespace {
 

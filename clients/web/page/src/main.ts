@@ -5,6 +5,7 @@ import "./styles/base.css";
 import "./styles/layout.css";
 import "./styles/parts.css";
 import "./styles/code.css";
+import "./styles/probe.css";
 import { machine as fetchMachine } from "./api/client";
 import type { Machine, Role } from "./api/contract";
 import { h } from "./dom/element";

@@ -53,3 +53,9 @@ export async function programPath(most_points: number): Promise<Result<ArrayBuff
   const answer = await request(`/api/program/path?points=${most_points}`, {});
   return answer.ok ? { ok: true, value: await answer.value.arrayBuffer() } : answer;
 }
+
+/** The newest measured surface, as a table x_mm,y_mm,z_mm. */
+export async function heights(): Promise<Result<string>> {
+  const answer = await request("/api/heights", {});
+  return answer.ok ? { ok: true, value: await answer.value.text() } : answer;
+}

@@ -192,8 +192,35 @@ export interface State {
   tools?: Maybe<Record<string, Tool>>;
   devices?: Maybe<Devices>;
   writer?: Maybe<Writer>;
+  measurement?: Maybe<Measurement>;
   modes: Modes;
   viewers: number;
+}
+
+export type MeasureKind = "touch" | "edge" | "angle" | "corner" | "bore" | "boss" | "tool" | "surface";
+
+export interface Measurement {
+  number: number;
+  kind: MeasureKind;
+  touches: number;
+  points?: Maybe<number>;
+  result?: Maybe<MeasureResult>;
+  problem?: Maybe<Problem>;
+}
+
+export interface MeasureResult {
+  touched: boolean;
+  input?: Maybe<string>;
+  touch: Record<string, number>;
+  behind: number;
+  x?: Maybe<number>;
+  y?: Maybe<number>;
+  diameter_x?: Maybe<number>;
+  diameter_y?: Maybe<number>;
+  angle_deg?: Maybe<number>;
+  tool_length?: Maybe<number>;
+  lowest?: Maybe<number>;
+  highest?: Maybe<number>;
 }
 
 export interface Devices {

@@ -21,6 +21,7 @@ import { Outputs } from "./outputs";
 import { Overrides } from "./overrides";
 import { PathView } from "./path_view";
 import { PauseBanner } from "./pause_banner";
+import { ProbeTab } from "./probe/probe_tab";
 import { ProgramTab } from "./program_tab";
 import { ReportsTab } from "./reports_tab";
 import { SafetyBar } from "./safety_bar";
@@ -52,13 +53,15 @@ export class Page {
     const [path, strip] = [new PathView(machine), new Strip(machine)];
     const [job, devices, overrides] = [new JobCard(this.give), new DevicesRow(), new Overrides(machine, this.give)];
     const [program, mdi] = [new ProgramTab(machine, report), new MdiTab(this.give)];
+    const probe = new ProbeTab(machine, this.give, report);
     const [offsets, tools, reports] = [new OffsetsTab(machine, this.give), new ToolsTab(this.give), new ReportsTab(report)];
     const tabs = new Tabs(t.program.title, [
       { id: "program", title: t.program.title, content: program.element }, { id: "mdi", title: t.mdi.title, content: mdi.element },
+      { id: "probe", title: t.probe.title, content: probe.element },
       { id: "offsets", title: t.offsets.title, content: offsets.element }, { id: "tools", title: t.tools.title, content: tools.element },
       { id: "reports", title: t.reports.title, content: reports.element },
     ]);
-    this.views = [header, safety, banner, writer, pause, alarms, axes, motors, boards, inputs, outputs, jog, path, strip, job, devices, overrides, program, mdi, offsets, tools, reports];
+    this.views = [header, safety, banner, writer, pause, alarms, axes, motors, boards, inputs, outputs, jog, path, strip, job, devices, overrides, program, mdi, probe, offsets, tools, reports];
     place.replaceChildren(
       h("a", { class: "skip", href: "#main" }, t.page.skip), header.element,
       h("main", { id: "main", tabindex: -1 },
