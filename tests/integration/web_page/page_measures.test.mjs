@@ -89,6 +89,16 @@ describe("the tab Probe", () => {
     await leave();
   });
 
+  test("says that nothing was touched", async () => {
+    await enter();
+    stand(80, 60, 60);
+    const { problem } = await measure("touch", { way: -1, feed: FEED }, "Z");
+    assert.equal(problem.code, "probe-not-touched");
+    await page.locator(".probe-result .trouble", { hasText: "a probing move came to its end without a touch Remedy: check the probe" }).waitFor();
+    assert.ok(await page.getByRole("button", { name: "Set zero or rotation" }).isHidden());
+    await leave();
+  });
+
   test("measures a tool by the setter, and keeps its length", async () => {
     await enter();
     stand(20, 150, 43);
