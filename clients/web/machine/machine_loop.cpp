@@ -80,6 +80,7 @@ void MachineLoop::run_first(const ReadyProgram& program, const Done& done) {
 void MachineLoop::run_task(const ReadyProgram& program, const Done& done) {
     const auto begun = [this, program](std::uint64_t job) {
         job_ = OwnJob{job, program.facts};
+        measuring_.note_begin(program.measures.get());
         if (program.stream || program.measures) { probing_.emplace(program, job); }
     };
     start(std::make_unique<RunTask>(ReadyProgram(program), begun, shown(done)), done);

@@ -8,6 +8,11 @@ void Measuring::begin(std::shared_ptr<const MeasurePlan> plan) {
     newest_ = Measurement{.number = before + 1, .plan = std::move(plan), .result = {}, .problem = {}};
 }
 
+void Measuring::note_begin(const MeasurePlan* measures) {
+    const bool runs = newest_ && !newest_->result && !newest_->problem;
+    if (runs && newest_->plan.get() != measures) { fail(ended_early("the machine runs another job")); }
+}
+
 void Measuring::note(const ProbingRun& run, const MachineConfig& machine) {
     if (run.touch()) { touches_.push_back(*run.touch()); }
     newest_->touches = touches_.size();

@@ -14,6 +14,9 @@ class Measuring {
 public:
     /// Its program has begun to run.
     void begin(std::shared_ptr<const MeasurePlan> plan);
+    /// A part of a program has begun to run. `measures`: what it measures. It ends a measurement that still runs,
+    /// unless it is the next part of that.
+    void note_begin(const MeasurePlan* measures);
     /// A part of its program is over, or the whole program.
     void note(const ProbingRun& run, const MachineConfig& machine);
     /// The machine refuses the next part.

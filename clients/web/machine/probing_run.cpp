@@ -6,14 +6,6 @@
 namespace lockstep::web {
 namespace {
 
-Problem ended_early(const std::string& why) {
-    return {.status = 409,
-            .code = "ended-early",
-            .title = "the job ended before its end",
-            .detail = why,
-            .remedy = "see the job, and give the command again"};
-}
-
 std::optional<Problem> why_ended(const MachineState& machine) {
     if (machine.outcome == JobOutcome::Done) { return std::nullopt; }
     if (machine.job_fault != FaultCode::None) { return refused(machine.job_fault, ""); }
@@ -21,6 +13,14 @@ std::optional<Problem> why_ended(const MachineState& machine) {
 }
 
 }  // namespace
+
+Problem ended_early(const std::string& why) {
+    return {.status = 409,
+            .code = "ended-early",
+            .title = "the job ended before its end",
+            .detail = why,
+            .remedy = "see the job, and give the command again"};
+}
 
 /// A program without a stream is one touch.
 bool ProbingRun::awaits_touch() const { return !program_.stream || program_.stream->awaits_touch(); }

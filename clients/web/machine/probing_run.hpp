@@ -9,6 +9,9 @@
 
 namespace lockstep::web {
 
+/// 409: a program was not run to its end.
+Problem ended_early(const std::string& why);
+
 class ProbingRun {
 public:
     /// `job` runs the program's present part.
