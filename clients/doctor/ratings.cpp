@@ -16,6 +16,12 @@
 namespace lockstep::doctor {
 namespace {
 
+/// The shortest slot that the machine's clocks allow: four times the limit of their error, or 0 if the axes share one
+/// clock.
+std::int64_t least_slot_us(const ProtocolTiming& timing) {
+    return timing.time_source == TimeSource::Shared ? 0 : 4 * timing.clock_error_limit_us;
+}
+
 std::string milliseconds(double us) { return fmt::format("{:.{}f} ms", us / 1000, us < 10'000 ? 2 : 0); }
 
 }  // namespace
@@ -106,26 +112,24 @@ Finding rate_memory(const RealTimeConfig& wanted, const RealTimeFacts& facts) {
             wanted.priority > 0 ? "LimitMEMLOCK=infinity in the unit, or ulimit -l unlimited" : ""};
 }
 
-ProtocolTiming timing_for(const StallFacts& facts, std::int64_t least_slot_us) {
+ProtocolTiming timing_for(const StallFacts& facts, const ProtocolTiming& today) {
     constexpr std::array<std::int64_t, 6> kSlots_us{1000, 2000, 5000, 10'000, 20'000, 50'000};
     const double stall = 2 * facts.worst_us;
     const auto fits = [&](std::int64_t slot) {
-        return slot >= least_slot_us && static_cast<double>(slot) * 10 >= stall;
+        return slot >= least_slot_us(today) && static_cast<double>(slot) * 10 >= stall;
     };
     const auto slot = std::ranges::find_if(kSlots_us, fits);
-    ProtocolTiming timing{.slot_us = slot == kSlots_us.end() ? kSlots_us.back() : *slot};
+    ProtocolTiming timing{.slot_us = slot == kSlots_us.end() ? kSlots_us.back() : *slot,
+                          .segment_entries = today.segment_entries,
+                          .output_entries = today.output_entries};
     timing.stall_slots = std::max(1, static_cast<int>(std::ceil(stall / static_cast<double>(timing.slot_us))));
     timing.late_check_slots = std::min(timing.late_check_slots, timing.stall_slots);
     return with_least_times(timing);
 }
 
-std::int64_t least_slot_us(const ProtocolTiming& timing) {
-    return timing.time_source == TimeSource::Shared ? 0 : 4 * timing.clock_error_limit_us;
-}
-
 Finding rate_stalls(const ProtocolTiming& timing, const StallFacts& facts) {
     const double may_us = static_cast<double>(timing.stall_slots) * static_cast<double>(timing.slot_us);
-    const ProtocolTiming better = timing_for(facts, least_slot_us(timing));
+    const ProtocolTiming better = timing_for(facts, timing);
     const std::string found = fmt::format(
         "in {} s a thread woke up at most {} late, and in 99 of 100 cases at most {}; the timing allows {}",
         std::lround(facts.seconds), milliseconds(facts.worst_us), milliseconds(facts.p99_us), milliseconds(may_us));

@@ -50,11 +50,9 @@ struct StallFacts {
     double seconds = 0;  // duration of the measurement
 };
 Finding rate_stalls(const ProtocolTiming& timing, const StallFacts& facts);
-/// The shortest slot that the machine's clocks allow: four times the limit of their error, or 0 if the axes share one
-/// clock.
-std::int64_t least_slot_us(const ProtocolTiming& timing);
-/// The shortest timing with which a host may stall for twice as long as measured.
-ProtocolTiming timing_for(const StallFacts& facts, std::int64_t least_slot_us = 0);
+/// The shortest timing with which a host may stall for twice as long as measured, for the clocks and the devices' rings
+/// of a machine that has the timing `today`.
+ProtocolTiming timing_for(const StallFacts& facts, const ProtocolTiming& today = {});
 
 struct ClockFacts {
     std::string source;               // the kernel's clocksource

@@ -46,12 +46,23 @@ std::optional<std::string> too_long(const char* times, std::int64_t ns, std::uin
 /// A frame whose entries stay in the ring until it ends is there beside those that are sent ahead.
 std::optional<std::string> lack_of_room(const DeviceAbilities& device, const DeviceAbilities& needs,
                                         const MachineConfig& machine) {
-    const auto frames = static_cast<std::uint64_t>(frames_ahead(machine.timing));
-    const std::uint64_t entries = needs.segment_entries + (device.frames_stay ? needs.segment_entries / frames : 0);
-    if (device.segment_entries >= entries) { return std::nullopt; }
-    return "device: its segment ring has " + text_of(device.segment_entries) +
-           " entries, and the frames that are sent ahead need " + text_of(entries) +
-           "; increase timing.frame_slots, or use a device with more";
+    const auto ahead = static_cast<std::uint64_t>(frames_ahead(machine.timing));
+    const std::uint64_t there = ahead + (device.frames_stay ? 1 : 0);
+    const std::uint64_t entries = needs.segment_entries / ahead * there;
+    const std::uint64_t changes = needs.output_entries / ahead * there;
+    if (device.segment_entries < entries) {
+        return "device: its segment ring has " + text_of(device.segment_entries) +
+               " entries, and the frames that are sent ahead need " + text_of(entries) +
+               "; decrease timing.segment_entries to " + text_of(device.segment_entries / there * ahead) +
+               ", or use a device with more";
+    }
+    if (device.output_entries < changes) {
+        return "device: its output ring has " + text_of(device.output_entries) +
+               " entries, and the frames that are sent ahead need " + text_of(changes) +
+               "; decrease timing.output_entries to " + text_of(device.output_entries / there * ahead) +
+               ", or use a device with more";
+    }
+    return std::nullopt;
 }
 
 std::optional<std::string> lack_of_time(const DeviceAbilities& device, const DeviceAbilities& needs) {
@@ -139,13 +150,15 @@ Ticks most_lead(const MachineConfig& machine) {
 /// excess.
 DeviceAbilities needs_of(const MachineConfig& machine, const MotorConfig& motor) {
     const double speed = fastest_steps_per_tick(machine, motor) / (1 + kTextRounding);
-    const std::size_t frame =
-        kFrameHeaders + static_cast<std::size_t>(body_pieces(machine.timing)) + kMaxTailPieces + kDevicePieces;
-    return {.segment_entries = static_cast<std::uint64_t>(frames_ahead(machine.timing)) * frame,
+    const OutputRoom outputs = output_room(machine.timing);
+    const bool has_outputs = !outputs_of(machine.outputs, motor.name).empty();
+    const auto changes = static_cast<std::size_t>(frames_ahead(machine.timing)) * (outputs.body + outputs.tail);
+    return {.segment_entries = static_cast<std::uint64_t>(needed_entries(machine.timing)),
             .capture_entries = static_cast<std::uint64_t>(std::ceil(speed * longest_gap_ticks(machine))),
             .least_step = {static_cast<std::int64_t>(std::min(std::floor(kPlannedPart / speed), 1e9))},
             .longest_piece = machine.frame_ticks(),
-            .lead = most_lead(machine)};
+            .lead = most_lead(machine),
+            .output_entries = has_outputs ? changes : 0};
 }
 
 std::optional<std::string> lack_of(const DeviceAbilities& device, const MachineConfig& machine,

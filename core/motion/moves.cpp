@@ -68,7 +68,7 @@ double braking_left(std::span<const PathMove> moves, std::size_t m, double speed
 
 Ticks least_move(const MachineConfig& machine) {
     // A move has four pieces: three phases and the tick of its corner. Four moves are reserved for the frame's edges.
-    const std::int64_t moves_per_frame = body_pieces(machine.timing) / 4 - 4;
+    const std::int64_t moves_per_frame = std::max(body_pieces(machine.timing) / 4 - 4, 1);
     return {machine.frame_ticks().value / moves_per_frame + 1};
 }
 

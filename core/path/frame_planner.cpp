@@ -275,7 +275,7 @@ bool FramePlanner::fit_tail(PathFrame& frame, const FrameCursor& from) {
     const Ticks end = rounded_up(tail_.end());
     if (tail_.phases().empty() || end <= Ticks{}) { return true; }
     auto points = from.points;
-    if (fit_.fit(tail_, end, kMaxTailPieces, {points.begin(), points.size()})) { return false; }
+    if (fit_.fit(tail_, end, setup_.tail_pieces, {points.begin(), points.size()})) { return false; }
     for (const MotorIndex i : motor_indices(setup_.motors())) {
         for (const Piece& piece : fit_.pieces(i)) { frame.axes[i].tail.append(piece); }
         if (!may_rest(points[i], setup_.limits[i])) { return false; }

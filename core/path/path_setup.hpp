@@ -27,10 +27,11 @@ struct PathSetup {
     std::vector<double> steps_per_mm;          // of the axes, or per degree
     Ticks frame_ticks;                         // a frame's length: pieces end at the edges of frames
     std::size_t body_pieces = kMaxBodyPieces;  // for which a frame has room, for each motor
-    bool has_outputs = false;                  // frames list the moves that begin in their tails
-    bool tells_speeds = false;                 // frames list the speeds along the path
-    std::size_t boards = 0;                    // behind the motors in frames; they rest
-    MotorMap motor_map;                        // steps of the motors by those of the axes; empty: each axis is a motor
+    std::size_t tail_pieces = kMaxTailPieces;
+    bool has_outputs = false;   // frames list the moves that begin in their tails
+    bool tells_speeds = false;  // frames list the speeds along the path
+    std::size_t boards = 0;     // behind the motors in frames; they rest
+    MotorMap motor_map;         // steps of the motors by those of the axes; empty: each axis is a motor
     /// Steps of each axis: if all axes deviate by so much, no motor deviates by more than a step. Empty: 1.
     std::vector<double> motor_step;
     std::vector<MotorBacklash> backlashes;  // of the motors; empty: none has any
@@ -99,6 +100,7 @@ inline PathSetup path_setup_of(const MachineConfig& machine) {
                     .steps_per_mm = {},
                     .frame_ticks = machine.frame_ticks(),
                     .body_pieces = static_cast<std::size_t>(body_pieces(machine.timing)),
+                    .tail_pieces = static_cast<std::size_t>(tail_pieces(machine.timing)),
                     .boards = machine.boards.size()};
     setup.limits.resize(moving_motor_count(machine));
     const bool takes_up = has_backlash(machine);

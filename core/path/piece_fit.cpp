@@ -27,7 +27,7 @@ PieceFit::PieceFit(const PathSetup& setup)
       points_(setup.motors()),
       try_pieces_(setup.motors()),
       try_points_(setup.motors()) {
-    for (std::vector<Piece>& pieces : fitted_) { pieces.reserve(std::max(setup.body_pieces, kMaxTailPieces)); }
+    for (std::vector<Piece>& pieces : fitted_) { pieces.reserve(std::max(setup.body_pieces, setup.tail_pieces)); }
 }
 
 /// The tick at which a piece from `now` must end. A jump between two ticks is put into the longer of the two adjacent

@@ -19,6 +19,8 @@ struct ProtocolTiming {
     int freshness_slots = 11;   // m >= s + 1
     int send_ahead_slots = 31;  // A >= V + m + s + 4
     int frame_slots = 5;
+    int segment_entries = 1024;  // of the devices' smallest segment ring (sim_fpga/registers.json)
+    int output_entries = 1024;   // of the smallest output ring of a device whose outputs are used
     TimeSource time_source = TimeSource::Shared;
     std::int64_t jog_hold_us = 20'000;         // how long a jog continues after a renewal reaches the coordinator
     std::int64_t clock_error_limit_us = 2500;  // for axes in coordinated moves; at most most_clock_error_us()

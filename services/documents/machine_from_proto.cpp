@@ -34,6 +34,8 @@ ProtocolTiming read_timing(const proto::Timing& message) {
         .frame_slots = message.has_frame_slots() ? message.frame_slots() : preset.frame_slots,
         .time_source = value_of<TimeSource>(message.time_source()),
     };
+    if (message.has_segment_entries()) { timing.segment_entries = message.segment_entries(); }
+    if (message.has_output_entries()) { timing.output_entries = message.output_entries(); }
     if (message.has_jog_hold_ms()) { timing.jog_hold_us = std::int64_t{message.jog_hold_ms()} * 1000; }
     timing.clock_error_limit_us =
         message.has_clock_error_limit_us() ? message.clock_error_limit_us() : timing.most_clock_error_us();

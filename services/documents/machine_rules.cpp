@@ -6,6 +6,7 @@
 
 #include "core/coordinator/path/coordination.hpp"
 #include "core/coordinator/path/lai_path.hpp"
+#include "core/coordinator/path/touched_outputs.hpp"
 #include "core/protocol/frame_room.hpp"
 #include "core/protocol/peer_evidence.hpp"
 #include "core/protocol/rules.inc"
@@ -17,6 +18,10 @@ namespace lockstep {
 namespace {
 
 constexpr int kMaxSlots = 10'000;
+// Of a device's rings, as in sim_fpga/registers.json.
+constexpr int kMostSegmentEntries = 4096;
+constexpr int kLeastOutputEntries = 16;
+constexpr int kMostOutputEntries = 1024;
 constexpr std::int64_t kLeastClockTicks = 16;
 constexpr std::int64_t kLeastSlotTicks = 4;  // processes loop up to four times in a slot, and once in a tick at most
 constexpr std::uint32_t kMaxDomain = 232;    // the last domain with ports below 65536 (DDS interoperability, 9.6.1)
@@ -40,6 +45,8 @@ void check_timing(const MachineConfig& machine, ProblemList& problems) {
     problems.require_range("timing.freshness_slots", t.freshness_slots, 1, kMaxStallSlots + 50);
     problems.require_range("timing.send_ahead_slots", t.send_ahead_slots, 1, kMaxSlots);
     problems.require_range("timing.frame_slots", t.frame_slots, 1, kMaxSlots);
+    problems.require_range("timing.segment_entries", t.segment_entries, kLeastSegmentEntries, kMostSegmentEntries);
+    problems.require_range("timing.output_entries", t.output_entries, kLeastOutputEntries, kMostOutputEntries);
     problems.require_range("timing.jog_hold_ms", static_cast<double>(t.jog_hold_us) / 1000, 20, 500);
 }
 
@@ -57,13 +64,29 @@ void check_protocol(const ProtocolTiming& t, ProblemList& problems) {
         fmt::format("timing.late_check_slots is {}; it must be from 0 to stall_slots, {}", t.late_check_slots, s));
     require("timing.send_ahead_slots", t.send_ahead_slots, RULE_LEAST_SEND_AHEAD(t.check_slots(), m, s),
             "freshness_slots + stall_slots + late_check_slots + 8");
-    const int least = t.send_ahead_slots > 0 && t.send_ahead_slots <= kMaxSlots ? least_frame_slots(t) : 1;
+    const bool is_in_range =
+        t.send_ahead_slots > 0 && t.send_ahead_slots <= kMaxSlots && t.segment_entries >= kLeastSegmentEntries;
+    const int least = is_in_range ? least_frame_slots(t) : 1;
     problems.require_between(
-        {"timing.frame_slots", "timing.send_ahead_slots"}, t.frame_slots >= least,
+        {"timing.frame_slots", "timing.send_ahead_slots", "timing.segment_entries"}, t.frame_slots >= least,
+        fmt::format("timing.frame_slots is {}; it must be at least {}, so that a device has room in {} entries "
+                    "(segment_entries) for all frames that are sent {} slots ahead (send_ahead_slots)",
+                    t.frame_slots, least, t.segment_entries, t.send_ahead_slots));
+}
+
+/// A body and its tail have room for the changes that any events may make. No output ring has more entries than usual.
+void check_output_room(const MachineConfig& machine, ProblemList& problems) {
+    const ProtocolTiming& t = machine.timing;
+    if (t.frame_slots < 1 || t.send_ahead_slots < 1) { return; }  // reported above
+    if (t.output_entries == kMostOutputEntries) { return; }
+    const std::size_t least = TouchedOutputs::least_room(machine.outputs);
+    const int frames = frames_ahead(t);
+    problems.require_between(
+        {"timing.output_entries", "timing.frame_slots", "timing.send_ahead_slots"}, output_room(t).tail >= least,
         fmt::format(
-            "timing.frame_slots is {}; it must be at least {}, so that a device has room for all frames that are "
-            "sent {} slots ahead (send_ahead_slots)",
-            t.frame_slots, least, t.send_ahead_slots));
+            "timing.output_entries is {}; it must be at least {}, for {} changes in the body and {} in the tail "
+            "of each of {} frames that are sent ahead; increase it, or timing.frame_slots",
+            t.output_entries, 2 * least * static_cast<std::size_t>(frames), least, least, frames));
 }
 
 /// With PTP an axis reports the whole limit as the error of its host's clock.
@@ -206,6 +229,7 @@ std::vector<Problem> machine_problems(const MachineConfig& machine) {
     problems.require_range("tick_ns", static_cast<double>(machine.tick_ns), 100, 1e6);
     check_timing(machine, problems);
     check_protocol(machine.timing, problems);
+    check_output_room(machine, problems);
     check_clocks(machine, problems);
     check_device_clocks(machine, problems);
     check_network(machine.network, problems);

@@ -15,7 +15,10 @@ void write_timing(const MachineConfig& machine, proto::Timing& message) {
     message.set_freshness_slots(timing.freshness_slots);
     message.set_send_ahead_slots(timing.send_ahead_slots);
     message.set_frame_slots(timing.frame_slots);
-    if (timing.jog_hold_us != ProtocolTiming{}.jog_hold_us) {
+    const ProtocolTiming preset;
+    if (timing.segment_entries != preset.segment_entries) { message.set_segment_entries(timing.segment_entries); }
+    if (timing.output_entries != preset.output_entries) { message.set_output_entries(timing.output_entries); }
+    if (timing.jog_hold_us != preset.jog_hold_us) {
         message.set_jog_hold_ms(static_cast<std::int32_t>(timing.jog_hold_us / 1000));
     }
     const bool is_shared = timing.time_source == TimeSource::Shared;

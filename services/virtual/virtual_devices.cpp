@@ -35,14 +35,21 @@ void mislead_newest_frame(RegisterWindow& window) {
 
 }  // namespace
 
-VirtualDevices::VirtualDevices(const MachineConfig& machine, const MachineClocks& clocks,
-                               const std::vector<LinkDelay>& links, std::uint64_t seed, Tick now)
-    : clocks_(clocks), machine_(machine), motors_(motors_of(machine)), seed_(seed), switches_(machine), work_(machine) {
+VirtualDevices::VirtualDevices(const VirtualOptions& options, const MachineClocks& clocks, Tick now)
+    : clocks_(clocks),
+      machine_(options.machine),
+      motors_(motors_of(machine_)),
+      seed_(options.seed),
+      switches_(machine_),
+      work_(machine_) {
     for (std::size_t i = 0; i < motors_.size(); ++i) {
-        devices_.push_back({.window = RegisterWindow::in_process(), .simulated = nullptr, .link = {}});
-        const bool has_link = i < links.size() && links[i].most > Ticks{};
-        if (has_link) { devices_[i].link.emplace(links[i], seed + i); }
-        power_up(MotorIndex{i}, devices_[i].window, plant_of(machine, motors_[i]), now);
+        devices_.push_back({.abilities = i < options.devices.size() ? options.devices[i] : DeviceAbilities{},
+                            .window = RegisterWindow::in_process(),
+                            .simulated = nullptr,
+                            .link = {}});
+        const bool has_link = i < options.links.size() && options.links[i].most > Ticks{};
+        if (has_link) { devices_[i].link.emplace(options.links[i], seed_ + i); }
+        power_up(MotorIndex{i}, devices_[i].window, plant_of(machine_, motors_[i]), now);
     }
 }
 
@@ -144,8 +151,9 @@ void VirtualDevices::power_up(MotorIndex motor, const RegisterWindow& window, Pl
     const Tick shown = clocks_.device(motor, now);
     if (devices_[motor].link) { devices_[motor].link->power_up(); }
     devices_[motor].window = window;
-    devices_[motor].simulated = std::make_unique<SimulatedDevice>(window, std::move(plant), machine_.tick_ns, shown,
-                                                                  static_cast<std::uint64_t>(now.value));
+    devices_[motor].simulated =
+        std::make_unique<SimulatedDevice>(window, std::move(plant), machine_.tick_ns, shown,
+                                          static_cast<std::uint64_t>(now.value), devices_[motor].abilities);
 }
 
 void VirtualDevices::overwrite(MotorIndex motor, bool garbage, Tick now) {

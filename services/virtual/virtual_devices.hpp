@@ -13,16 +13,15 @@
 #include "services/virtual/late_link.hpp"
 #include "services/virtual/machine_clocks.hpp"
 #include "services/virtual/virtual_fault.hpp"
+#include "services/virtual/virtual_options.hpp"
 #include "sim_fpga/workpiece/work_contacts.hpp"
 
 namespace lockstep {
 
 class VirtualDevices {
 public:
-    /// Powers up all devices at `now`. `clocks` must outlive this object. `links`: of each axis; without an entry there
-    /// is none, and the axis uses the registers themselves.
-    VirtualDevices(const MachineConfig& machine, const MachineClocks& clocks, const std::vector<LinkDelay>& links,
-                   std::uint64_t seed, Tick now);
+    /// Powers up all devices at `now`. `clocks` must outlive this object.
+    VirtualDevices(const VirtualOptions& options, const MachineClocks& clocks, Tick now);
 
     SimulatedDevice& operator[](MotorIndex motor) { return *devices_[motor].simulated; }
     const SimulatedDevice& operator[](MotorIndex motor) const { return *devices_[motor].simulated; }
@@ -45,6 +44,7 @@ public:
 
 private:
     struct Device {
+        DeviceAbilities abilities;
         RegisterWindow window;
         std::unique_ptr<SimulatedDevice> simulated;
         std::optional<LateLink> link;

@@ -11,7 +11,7 @@ VirtualMachine::VirtualMachine(const VirtualOptions& options)
     : options_(options),
       now_(options.start),
       clocks_(options.clocks, options.start),
-      devices_(options.machine, clocks_, options.links, options.seed, now_),
+      devices_(options, clocks_, now_),
       post_(options.network, options.seed, motor_count(options.machine), options.coordinators),
       client_(options.machine),
       clock_mail_(options_.machine, post_, clocks_, options.network.reply_longer),

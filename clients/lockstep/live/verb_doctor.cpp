@@ -181,7 +181,7 @@ void print(const Finding& finding, Output& output) {
 
 ExitCode propose(const ProtocolTiming& today, double seconds, Output& output) {
     const doctor::StallFacts facts = watch_for_stalls(today.slot_us, seconds, output);
-    const ProtocolTiming proposed = doctor::timing_for(facts, doctor::least_slot_us(today));
+    const ProtocolTiming proposed = doctor::timing_for(facts, today);
     print_timing(facts, proposed, today, output);
     output.print("do: lockstep timing apply --stall-ms STALL, with the longest stall of all hosts");
     output.report(timing_report(facts, proposed));

@@ -30,7 +30,7 @@ ExitCode apply(const TimingOptions& options) {
     if (!machine) { return output.fail(machine.error()); }
     const ProtocolTiming& today = machine->config.timing;
     const doctor::StallFacts facts = facts_of(options, today.slot_us, output);
-    const ProtocolTiming proposed = doctor::timing_for(facts, doctor::least_slot_us(today));
+    const ProtocolTiming proposed = doctor::timing_for(facts, today);
     const auto written = edit_machine(machine->file, [&](std::string_view text) { return with_slots(text, proposed); });
     if (!written) { return output.fail(written.error()); }
     print_timing(facts, proposed, today, output);

@@ -47,12 +47,11 @@ Brake plan_brake(Displacement from, double speed, double jumped, std::int64_t la
 
 }  // namespace
 
-OwnMove::OwnMove(OwnPieces pieces, const Place& place, const AxisLimits& limits, Ticks span, Ticks to_whole_step)
+OwnMove::OwnMove(OwnPieces pieces, const Place& place, const AxisLimits& limits, const Lengths& lengths)
     : pieces_(std::move(pieces)),
       place_(place),
       limits_(limits),
-      span_(span),
-      to_whole_step_(to_whole_step),
+      lengths_(lengths),
       end_(place.start),
       at_(place.from) {}
 
@@ -68,8 +67,8 @@ HeldFrame OwnMove::next() {
 }
 
 void OwnMove::fill_body(HeldFrame& frame) {
-    while (frame.ticks < span_ && !frame.track.body.full()) {
-        const auto piece = pieces_.next(span_);
+    while (frame.ticks < lengths_.span && frame.track.body.size() < lengths_.body_pieces) {
+        const auto piece = pieces_.next(lengths_.span);
         if (!piece) { return; }
         frame.track.body.append(directed(*piece));
         frame.ticks += piece->ticks;
@@ -84,7 +83,7 @@ void OwnMove::fill_body(HeldFrame& frame) {
 /// The tail is one piece of constant deceleration. Its ticks are rounded up, and its velocity is solved for the exact
 /// end.
 void OwnMove::fill_tail(HeldFrame& frame) const {
-    const Brake brake = plan_brake(gone_, speed_, fastest_ - speed_, place_.steps, limits_, to_whole_step_);
+    const Brake brake = plan_brake(gone_, speed_, fastest_ - speed_, place_.steps, limits_, lengths_.to_whole_step);
     const Displacement way = brake.to - gone_;
     if (way.raw <= 0) { return; }
     const double ticks = std::ceil(brake.ticks_over(way.as_steps()));

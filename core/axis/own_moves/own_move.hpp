@@ -7,6 +7,7 @@
 
 #include "core/axis/device/held_frames.hpp"
 #include "core/axis/own_moves/own_pieces.hpp"
+#include "core/protocol/frame_room.hpp"
 
 namespace lockstep {
 
@@ -18,9 +19,14 @@ public:
         std::int64_t steps = 0;  // > 0
         Tick start;
     };
-    /// Frames last at most three times as long as `span`, and have at most as many pieces as a frame holds. A tail
-    /// lasts at most `to_whole_step` longer than braking does.
-    OwnMove(OwnPieces pieces, const Place& place, const AxisLimits& limits, Ticks span, Ticks to_whole_step);
+    /// How long frames are: at most three times as long as `span`, and so many pieces in the body. A tail lasts at most
+    /// `to_whole_step` longer than braking does.
+    struct Lengths {
+        Ticks span;
+        Ticks to_whole_step;
+        std::size_t body_pieces = kMostOwnBodyPieces;
+    };
+    OwnMove(OwnPieces pieces, const Place& place, const AxisLimits& limits, const Lengths& lengths);
 
     /// The next frame, numbered from 1. Must not be called when all frames are made.
     HeldFrame next();
@@ -38,8 +44,7 @@ private:
     OwnPieces pieces_;
     Place place_;
     AxisLimits limits_;
-    Ticks span_;
-    Ticks to_whole_step_;
+    Lengths lengths_;
     FrameNumber made_ = 0;
     Tick end_;
     Position at_;

@@ -55,12 +55,12 @@ OwnMoves::OwnMoves(MotorIndex motor, const MachineConfig& machine, BeginSteps be
       limits_(limits_of(motor_, machine.tick_ns)),
       tick_ns_(machine.tick_ns),
       slot_(machine.slot_ticks()),
-      frame_{kFrame_ns / machine.tick_ns},
+      lengths_{Ticks{kFrame_ns / machine.tick_ns}, Ticks{kToWholeStep_ns / machine.tick_ns},
+               own_body_pieces(machine.timing)},
       ahead_(slot_ * (2 * machine.timing.stall_slots + 4)),
       jog_hold_(machine.jog_hold_ticks()),
       jog_frame_{kJogFrame_ns / machine.tick_ns},
       jog_lead_{kJogLead_ns / machine.tick_ns},
-      to_whole_step_{kToWholeStep_ns / machine.tick_ns},
       half_step_{static_cast<std::int64_t>(std::ceil(0.5 / limits_.start_velocity))},
       begin_steps_(begin_steps),
       homing_(motor_) {}
@@ -122,8 +122,8 @@ void OwnMoves::start_jog(const LocalMove& move, Tick until, AxisLoop& loop) {
     const std::int64_t count = loop.device.status().position.count();
     const Position from = rest_position(count - loop.condition.position.zero_count(), move.steps < 0);
     auto pieces = OwnPieces::plan(motor_, tick_ns_, StepMethod::Ranade, {std::abs(move.steps), move.speed_mm_s}, {});
-    OwnMove frames(std::move(*pieces), {from, move.steps < 0, std::abs(move.steps), start}, limits_, jog_frame_,
-                   to_whole_step_);
+    OwnMove frames(std::move(*pieces), {from, move.steps < 0, std::abs(move.steps), start}, limits_,
+                   {jog_frame_, lengths_.to_whole_step, lengths_.body_pieces});
     run_.emplace(move, std::move(frames), count + move.steps, 0, ahead_);
     run_->allow_until(std::min(until, loop.now + jog_hold_));
     between_steps_.reset();
@@ -144,7 +144,7 @@ OwnMove OwnMoves::frames_of(const LocalMove& move, Position from, Tick start) co
     if (!pieces) {
         pieces = OwnPieces::plan(motor_, tick_ns_, StepMethod::Ranade, {request.steps, move.speed_mm_s}, begin_steps_);
     }
-    return OwnMove(std::move(*pieces), {from, move.steps < 0, request.steps, start}, limits_, frame_, to_whole_step_);
+    return OwnMove(std::move(*pieces), {from, move.steps < 0, request.steps, start}, limits_, lengths_);
 }
 
 /// A run that a switch or a halt ended between two steps may have ended right behind a pulse, but the next run starts

@@ -51,12 +51,11 @@ private:
     AxisLimits limits_;
     std::int64_t tick_ns_;
     Ticks slot_;
-    Ticks frame_;  // about how long a frame lasts; a halt waits for its end
-    Ticks ahead_;  // how far ahead the device gets frames: longer than a process may stall
+    OwnMove::Lengths lengths_;  // of a frame; a halt waits for its end
+    Ticks ahead_;               // how far ahead the device gets frames: longer than a process may stall
     Ticks jog_hold_;
     Ticks jog_frame_;
-    Ticks jog_lead_;  // time from the order to the first frame's start
-    Ticks to_whole_step_;
+    Ticks jog_lead_;   // time from the order to the first frame's start
     Ticks half_step_;  // the time of half a step at the start velocity
     /// A rest between two steps, and when a run may start from there.
     struct BetweenSteps {

@@ -51,6 +51,18 @@ public:
         return most;
     }
 
+    /// A frame's body and tail should have room for so many changes: those besides events, and all outputs of a device
+    /// twice, because from rest a path cannot begin so slowly that events are ever so far apart.
+    static std::size_t least_room(std::span<const OutputConfig> outputs) {
+        TouchedOutputs all(outputs);
+        std::size_t most = 0;
+        for (Motor& motor : all.motors_) {
+            for (Output& output : motor.outputs) { output.is_touched = true; }
+            most = std::max(most, motor.besides() + 2 * motor.changes());
+        }
+        return most;
+    }
+
 private:
     struct Output {
         OutputConfig config;

@@ -73,7 +73,7 @@ std::string move_of(std::uint32_t number) {
     const std::int64_t from = drawn.below(1000) - 500;
     const Ticks to_whole_step{drawn.below(3) * span.value / 2};
     const OwnMove::Place place{rest_position(from, backward), backward, request.steps, Tick{drawn.below(1'000'000)}};
-    record_frames(text, OwnMove(std::move(*pieces), place, limits_of(motor, tick_ns), span, to_whole_step));
+    record_frames(text, OwnMove(std::move(*pieces), place, limits_of(motor, tick_ns), {span, to_whole_step}));
     return text.text();
 }
 

@@ -37,7 +37,7 @@ struct ByMethod : testing::TestWithParam<StepMethod> {
     OwnMove move(std::int64_t steps, bool backward) const {
         const OwnMoveRequest request{steps, axis.max_velocity_mm_s};
         return OwnMove(OwnPieces::plan(axis, 1000, GetParam(), request, methods::begin_steps).value(),
-                       {rest_position(0, backward), backward, steps, kStart}, limits, kSpan, kSpan);
+                       {rest_position(0, backward), backward, steps, kStart}, limits, {kSpan, kSpan});
     }
     MotorConfig axis = axis_by(GetParam());
     AxisLimits limits = limits_of(axis, 1000);
@@ -103,7 +103,7 @@ TEST_P(ByMethod, FramesAndTailsAreShortAtEverySpeed) {
         if (!pieces) { continue; }  // a method may have a greater least speed; the axis then uses Ranade's
         ++speeds;
         const double least_ticks = 1e6 / (speed_mm_s * axis.steps_per_mm);
-        OwnMove frames(std::move(*pieces), {rest_position(0, false), false, kSteps, kStart}, limits, kSpan, kSpan);
+        OwnMove frames(std::move(*pieces), {rest_position(0, false), false, kSteps, kStart}, limits, {kSpan, kSpan});
         for (int k = 0; k < 300 && !frames.all_made(); ++k) {
             const HeldFrame frame = frames.next();
             EXPECT_LE(frame.ticks.value, 3 * kSpan.value) << speed_mm_s;
@@ -146,8 +146,8 @@ TEST(OwnPieces, StopBeforeAPieceThatBreaksTheLimits) {
     const AxisLimits limits = limits_of(axis, 1000);
     auto pieces = OwnPieces::plan(axis, 1000, StepMethod::Lam, {1'000, axis.max_velocity_mm_s}, methods::begin_steps);
     ASSERT_TRUE(pieces);
-    OwnMove frames(std::move(*pieces), {rest_position(0, false), false, 1'000, Tick{0}}, limits, Ticks{12'000},
-                   Ticks{12'000});
+    OwnMove frames(std::move(*pieces), {rest_position(0, false), false, 1'000, Tick{0}}, limits,
+                   {Ticks{12'000}, Ticks{12'000}});
     Position rest;
     while (!frames.all_made()) {
         const HeldFrame frame = frames.next();

@@ -21,8 +21,8 @@ OwnRun slow_run() {
     const MotorConfig axis = motors_of(machine)[0];
     const OwnMoveRequest request{kSteps, axis.max_velocity_mm_s, kLasts};
     OwnMove frames(OwnPieces::plan(axis, machine.tick_ns, axis.method, request, methods::begin_steps).value(),
-                   {rest_position(0, false), false, kSteps, Tick{5000}}, limits_of(axis, machine.tick_ns), Ticks{5000},
-                   Ticks{5000});
+                   {rest_position(0, false), false, kSteps, Tick{5000}}, limits_of(axis, machine.tick_ns),
+                   {Ticks{5000}, Ticks{5000}});
     return {{.steps = kSteps, .speed_mm_s = axis.max_velocity_mm_s, .ticks = kLasts},
             std::move(frames),
             kSteps,

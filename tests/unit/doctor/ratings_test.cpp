@@ -97,7 +97,8 @@ TEST(DoctorOnStalls, AreRatedByTheTimingsAllowance) {
 
 TEST(DoctorOnStalls, ProposedTimingIsAcceptedAndAllowsTwiceTheMeasuredStall) {
     for (const double worst_us : {0.0, 80.0, 400.0, 3'000.0, 20'000.0, 50'000.0, 240'000.0}) {
-        MachineConfig machine{.name = "m", .timing = timing_for({.worst_us = worst_us})};
+        const ProtocolTiming today{.segment_entries = worst_us > 1000 ? 64 : 1024};
+        MachineConfig machine{.name = "m", .timing = timing_for({.worst_us = worst_us}, today)};
         machine.axes = {{.name = "X",
                          .steps_per_mm = 80,
                          .start_velocity_mm_s = 10,
@@ -113,6 +114,7 @@ TEST(DoctorOnStalls, ProposedTimingIsAcceptedAndAllowsTwiceTheMeasuredStall) {
         const auto read = parse_machine(machine_text(machine));
         ASSERT_TRUE(read) << to_text("machine", read.error());
         const ProtocolTiming& timing = read->timing;
+        EXPECT_EQ(timing.segment_entries, today.segment_entries) << "the devices stay as they are";
         EXPECT_GE(static_cast<double>(timing.slot_us * timing.stall_slots), 2 * worst_us);
     }
 }

@@ -77,6 +77,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{machine_with("timing { freshness_slots: 10 }"), 11, 10, "at least 11 (stall_slots + 1)"},
         Refusal{machine_with("timing { send_ahead_slots: 30 }"), 11, 10, "at least 31"},
         Refusal{machine_with("timing { frame_slots: 3 }"), 11, 10, "at least 4, so that a device has room"},
+        Refusal{machine_with("timing { segment_entries: 53 }"), 11, 10, "54 to 4096"},
+        Refusal{machine_with("timing { segment_entries: 200 }"), 11, 1, "at least 6, so that a device has room in 200"},
+        Refusal{machine_with("timing { output_entries: 15 }"), 11, 10, "16 to 1024"},
+        Refusal{
+            machine_with("timing { output_entries: 47 }\noutput { name: \"air\" motor: \"X\" channel: 0 use: MIST }"),
+            11, 10, "is 47; it must be at least 48, for 3 changes in the body and 3 in the tail of each of 8 frames"},
         Refusal{machine_with("timing { jog_hold_ms: 19 }"), 11, 10, "20 to 500"},
         Refusal{machine_with("timing { jog_hold_ms: 501 }"), 11, 10, "20 to 500"},
         Refusal{machine_with("timing { late_check_slots: 11 send_ahead_slots: 40 }"), 11, 10, "0 to stall_slots, 10"},

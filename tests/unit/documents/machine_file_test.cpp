@@ -81,6 +81,26 @@ TEST(MachineFile, JogsHoldForTwentyMillisecondsAndNotUnhomedUnlessItSaysSo) {
     EXPECT_EQ(config_hash(parse(machine_with("timing { jog_hold_ms: 20 }"))), config_hash(usual));
 }
 
+TEST(MachineFile, RingsHaveTheUsualSizesUnlessItSaysSo) {
+    const MachineConfig usual = parse(std::string(kShortest));
+    EXPECT_EQ(config_hash(parse(machine_with("timing { segment_entries: 1024 output_entries: 1024 }"))),
+              config_hash(usual));
+    const MachineConfig small = parse(machine_with("timing { segment_entries: 224 output_entries: 40 }"));
+    EXPECT_EQ(small.timing.segment_entries, 224);
+    EXPECT_EQ(parse(machine_text(small)).timing.output_entries, 40);
+}
+
+/// docs/pico.md and sim_fpga/rtl/README.md name these.
+TEST(MachineFile, SmallRingsHaveRoomForOutputs) {
+    const std::string air = "output { name: \"air\" motor: \"X\" channel: 0 use: MIST }\n";
+    const std::string power =
+        "output { name: \"power\" motor: \"X\" channel: 0 use: SPINDLE pwm { hz: 5000 full_scale: 1000 } }";
+    EXPECT_TRUE(parse_machine(machine_with("timing { output_entries: 64 }\n" + air)));
+    EXPECT_TRUE(parse_machine(machine_with("timing { output_entries: 64 frame_slots: 11 }\n" + air + power)));
+    EXPECT_TRUE(
+        parse_machine(machine_with("timing { frame_slots: 16 segment_entries: 192 output_entries: 24 }\n" + air)));
+}
+
 TEST(MachineFile, WordsForMissingDevicesAreRefusedExceptCoolant) {
     EXPECT_EQ(parse(kShortest).unassigned, UnassignedWords{});
     const MachineConfig machine = parse(machine_with("unassigned { spindle: IGNORE coolant: REFUSE }"));

@@ -44,8 +44,8 @@ TEST(DeviceAbilities, JustEnoughIsEnoughAndOneLessIsNot) {
     DeviceAbilities device = needs;
     --device.segment_entries;
     EXPECT_EQ(one.lack(device),
-              "device: its segment ring has 1023 entries, and the frames that are sent ahead need 1024; increase "
-              "timing.frame_slots, or use a device with more");
+              "device: its segment ring has 1023 entries, and the frames that are sent ahead need 1024; decrease "
+              "timing.segment_entries to 1016, or use a device with more");
     device = needs;
     --device.capture_entries;
     EXPECT_EQ(one.lack(device),
@@ -66,6 +66,54 @@ TEST(DeviceAbilities, AFrameThatStaysInTheRingNeedsRoomBesideThoseSentAhead) {
     EXPECT_NE(one.lack(device), "");
     device.segment_entries += frame;
     EXPECT_EQ(one.lack(device), "");
+}
+
+/// What an error asks for suffices, and one entry more does not.
+TEST(DeviceAbilities, ASmallRingSufficesForTheEntriesThatTheErrorNames) {
+    for (const bool stay : {false, true}) {
+        for (const int device_entries : {256, 512}) {
+            Case one;
+            const DeviceAbilities device{.segment_entries = static_cast<std::uint64_t>(device_entries),
+                                         .frames_stay = stay};
+            const std::string lack = one.lack(device);
+            const std::string key = "timing.segment_entries to ";
+            ASSERT_NE(lack.find(key), std::string::npos);
+            one.machine.timing.segment_entries = std::stoi(lack.substr(lack.find(key) + key.size()));
+            EXPECT_EQ(one.lack(device), "");
+            const int ahead = frames_ahead(one.machine.timing);
+            EXPECT_EQ(one.machine.timing.segment_entries, device_entries / (ahead + (stay ? 1 : 0)) * ahead);
+            one.machine.timing.segment_entries += ahead;
+            EXPECT_NE(one.lack(device), "");
+        }
+    }
+}
+
+TEST(DeviceAbilities, ChangesOfOutputsFitIntoTheRingOfADeviceWhoseOutputsAreUsed) {
+    Case one;
+    const DeviceAbilities device{.output_entries = 64};
+    EXPECT_EQ(one.lack(device), "");
+    one.machine.outputs.push_back({.name = "AIR", .motor = "X", .channel = 0});
+    EXPECT_EQ(one.lack(device),
+              "device: its output ring has 64 entries, and the frames that are sent ahead need 1024; decrease "
+              "timing.output_entries to 64, or use a device with more");
+    one.machine.timing.output_entries = 64;
+    EXPECT_EQ(one.lack(device), "");
+    ++one.machine.timing.output_entries;
+    EXPECT_EQ(one.lack(device), "") << "a part of an entry for each frame";
+    one.machine.timing.output_entries = 72;
+    EXPECT_NE(one.lack(device), "");
+}
+
+/// As sim_fpga/rtl/README.md and docs/pico.md advise.
+TEST(DeviceAbilities, RingsOfSmallDevicesSufficeWithTheTimingThatTheirDocumentsName) {
+    Case one;
+    one.machine.outputs.push_back({.name = "AIR", .motor = "X", .channel = 0});
+    const DeviceAbilities chip{.segment_entries = 256, .output_entries = 32, .frames_stay = true};
+    one.machine.timing = {.frame_slots = 16, .segment_entries = 192, .output_entries = 24};
+    EXPECT_EQ(one.lack(chip), "");
+    const DeviceAbilities pico{.segment_entries = 1024, .output_entries = 64};
+    one.machine.timing = {.output_entries = 64};
+    EXPECT_EQ(one.lack(pico), "");
 }
 
 TEST(DeviceAbilities, FramesComeEarlyEnoughForADeviceThatExecutesAheadOfItsPins) {

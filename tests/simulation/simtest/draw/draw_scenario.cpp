@@ -15,6 +15,7 @@
 #include "tests/simulation/simtest/draw/machine/draw_delta.hpp"
 #include "tests/simulation/simtest/draw/machine/draw_late_devices.hpp"
 #include "tests/simulation/simtest/draw/machine/draw_motors.hpp"
+#include "tests/simulation/simtest/draw/machine/draw_rings.hpp"
 #include "tests/simulation/simtest/draw/machine/draw_screws.hpp"
 #include "tests/simulation/simtest/draw/machine/draw_touches.hpp"
 #include "tests/simulation/simtest/draw/scenario.hpp"
@@ -271,6 +272,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (faults.clock) { faults.corrupt = false; }  // no clock bound holds with falsified replies
     const std::size_t drawn = 1 + draw.index(6);
     scenario.machine = draw_machine(draw, kind.axes.value_or(drawn), kind.long_searches);
+    if (kind.small_rings) { scenario.machine = with_small_rings(seed, std::move(scenario.machine)); }
     if (kind.deltas) {
         scenario.machine = with_delta(seed, std::move(scenario.machine));
     } else if (kind.motors) {
@@ -316,6 +318,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (kind.inputs) { give_inputs(seed, scenario); }
     if (kind.probes) { give_probes(seed, scenario); }
     if (kind.bounces) { give_bounces(seed, scenario); }
+    if (kind.small_rings) { give_rings(seed, scenario); }
     if (kind.jogs) { give_jogs(seed, with_plant(faults, asked), scenario); }
     return scenario;
 }

@@ -82,6 +82,7 @@ struct MachineKind {
     bool outputs = false;             // programs switch outputs (draw_outputs.hpp)
     bool boards = false;              // with a device without a motor
     bool bounces = false;             // contacts of inputs bounce (draw_bounces.hpp)
+    bool small_rings = false;         // devices have small rings (draw_rings.hpp)
 
     /// How a command line asks for it.
     struct Flag {
@@ -111,7 +112,8 @@ inline constexpr auto kMachineFlags = std::to_array<MachineKind::Flag>(
      {"--boards", &MachineKind::boards,
       "machines with a board: a device without a motor, for some of the outputs and inputs"},
      {"--bounces", &MachineKind::bounces, "with --inputs or --probes: their contacts bounce"},
-     {"--jogs", &MachineKind::jogs, "axes are also jogged, between programs"}});
+     {"--jogs", &MachineKind::jogs, "axes are also jogged, between programs"},
+     {"--small-rings", &MachineKind::small_rings, "machines of devices with small rings, of different sizes"}});
 
 /// A command that the machine must refuse, and the reason. The machine must continue as if it had not been given.
 struct WrongCommand {
@@ -219,8 +221,9 @@ struct Scenario {
     MachineConfig machine;
     NetworkBehaviour network;
     Tick power_up{1'000'000};
-    std::vector<AxisClocks> clocks;  // empty: one clock for all
-    std::vector<LinkDelay> links;    // empty: every axis uses its device's registers
+    std::vector<AxisClocks> clocks;        // empty: one clock for all
+    std::vector<LinkDelay> links;          // empty: every axis uses its device's registers
+    std::vector<DeviceAbilities> devices;  // empty: simulated ones as usual
     std::size_t coordinators = 1;
     OnTakeover on_takeover = OnTakeover::Stop;
     std::vector<WrongCommand> before_homing;
