@@ -106,6 +106,7 @@ struct MotorBlock {
     std::optional<double> max_decel_mm_s2;
     double switch_offset_mm = 0;  // its switch closes so far behind the axis's switch_position_mm
     std::optional<double> max_following_error_mm;
+    std::optional<double> correct_following_error_mm;
     std::optional<PlantConfig> plant;
     std::optional<PinsConfig> pins;
     std::vector<ScrewPoint> screw;           // of its own; empty: the axis's
@@ -125,9 +126,10 @@ struct AxisConfig {
     double position_min_mm = 0;
     double position_max_mm = 0;
     StepMethod method = StepMethod::Ranade;
-    std::optional<double> unhomed_jog_mm_s;        // greatest speed of a jog while unhomed; none: no such jog
-    std::optional<double> safe_height_mm;          // where it is clear of the work; none: not known
-    std::optional<double> max_following_error_mm;  // by which an encoder may differ from the count; none: 3 steps
+    std::optional<double> unhomed_jog_mm_s;            // greatest speed of a jog while unhomed; none: no such jog
+    std::optional<double> safe_height_mm;              // where it is clear of the work; none: not known
+    std::optional<double> max_following_error_mm;      // by which an encoder may differ from the count; none: 3 steps
+    std::optional<double> correct_following_error_mm;  // lost steps above this are made up at rest; none: never
     HomingConfig homing;
     PlantConfig plant;
     PinsConfig pins;

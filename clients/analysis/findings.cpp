@@ -214,10 +214,14 @@ void check_events(const Analysis& analysis, Findings& found) {
 /// An encoder that does not follow shows lost steps of the motor, which the record of steps cannot show.
 void check_encoders(const Analysis& analysis, Findings& found) {
     for (const auto& axis : analysis.axes) {
-        if (axis->positions().largest_following_error() <= 1) { continue; }
-        found.push_back(
-            {Grade::Doubtful, fmt::format("{}: its encoder was up to {} from its count of steps", axis->name(),
-                                          plural(axis->positions().largest_following_error(), "step"))});
+        const PositionLog& positions = axis->positions();
+        if (positions.largest_following_error() <= 1) { continue; }
+        const std::int64_t corrected = positions.corrected_steps();
+        found.push_back({Grade::Doubtful, fmt::format("{}: its encoder was up to {} from its count of steps{}",
+                                                      axis->name(), plural(positions.largest_following_error(), "step"),
+                                                      corrected == 0 ? ""
+                                                                     : fmt::format("; it lost {} and made them up",
+                                                                                   plural(corrected, "step")))});
     }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/kinematics/motors.hpp"
+#include "core/number_text.hpp"
 #include "core/protocol/names.hpp"
 #include "core/protocol/needs_lease.hpp"
 #include "core/protocol/reception_watch.hpp"
@@ -148,6 +149,7 @@ Weight weight_of(const Incident& incident, const Entry& entry) {
         case Kind::Claimed:
         case Kind::Reset:
         case Kind::PositionClaimed:
+        case Kind::StepsCorrected:
         case Kind::Started: return Weight::Notable;
         case Kind::PeerSilent:
         case Kind::PeerRestarted:
@@ -179,6 +181,7 @@ std::string sentence(const Incident& incident, const Entry& entry) {
         case Kind::HomingStage: return homing_text(event.count);
         case Kind::Homed: return "is homed and parked";
         case Kind::Touched: return "sees the touch of the probe";
+        case Kind::StepsCorrected: return fmt::format("makes up {} that were lost", plural(event.count, "step"));
         case Kind::Fault: return fault_sentence(incident, event);
         case Kind::Reset: return "is reset";
         case Kind::PositionClaimed:

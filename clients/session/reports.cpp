@@ -131,6 +131,7 @@ proto::AxisStatus axis_status(const Scale& scale, const AxisState* state, double
     if (state->unproved != FaultCode::None) { *status.mutable_unproved() = fault_report(state->unproved, scale.name); }
     status.set_at_rest(state->at_rest);
     status.set_following_error_steps(state->following_error_steps);
+    if (state->corrected_steps > 0) { status.set_corrected_steps(state->corrected_steps); }
     status.set_refused_frames(state->refused_frames);
     const double error_us = static_cast<double>(state->clock_error.value) / scale.ticks_per_s * 1e6;
     if (error_us > 0) { status.set_clock_error_us(error_us); }

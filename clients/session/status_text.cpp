@@ -59,6 +59,17 @@ std::string clock_line(const proto::StatusReport& status) {
     return text.empty() ? text : wrapped(text, 80, "  ") + "\n";
 }
 
+/// The steps that each motor has lost and made up; empty if there is none.
+std::string corrected_line(const proto::StatusReport& status) {
+    std::string text;
+    for (const proto::AxisStatus* const axis : rows_of(status)) {
+        if (!axis->has_corrected_steps()) { continue; }
+        text +=
+            fmt::format("{}{} {}", text.empty() ? "lost steps made up: " : ", ", axis->name(), axis->corrected_steps());
+    }
+    return text.empty() ? text : wrapped(text, 80, "  ") + "\n";
+}
+
 /// The reason why axes are not homed, if it is not obvious.
 std::string unproved_lines(const proto::StatusReport& status) {
     std::string text;
@@ -143,7 +154,7 @@ std::string status_text(const proto::StatusReport& status) {
         text += wrapped("outputs: " + outputs, 80, "  ") + "\n";
     }
     text += writer_line(status);
-    text += clock_line(status) + unproved_lines(status);
+    text += clock_line(status) + corrected_line(status) + unproved_lines(status);
     std::set<std::string> printed;
     const auto add_fault = [&](const proto::FaultReport& fault) {
         if (const std::string one = fault_text(fault) + "\n"; printed.insert(one).second) { text += one; }

@@ -167,8 +167,11 @@ void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace pl
     check_place(message, of->second);
     if (!make_follower_ && message.fault == 0 && analysis::is_countable(message.tick) &&
         analysis::is_countable(message.position_steps)) {
-        found->second->check.take(
-            SeenPosition{{message.tick}, message.position_steps, message.incarnation, message.homed != 0});
+        found->second->check.take(SeenPosition{{message.tick},
+                                               message.position_steps,
+                                               message.incarnation,
+                                               message.homed != 0,
+                                               message.following_error_steps});
     }
     found->second->last.is_moving = message.velocity_steps_per_s != 0;
     if (message.fault == static_cast<std::int32_t>(FaultCode::DeviceLost)) { found->second->check.device_lost(); }

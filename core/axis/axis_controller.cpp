@@ -204,6 +204,7 @@ void AxisController::carry_out(const AxisCommand& order, AxisLoop& loop) {
         case AxisCommandKind::Jog: return own_.jog(order, is_resting(), loop);
         case AxisCommandKind::Assume: return assume_place(order, is_resting(), loop);
         case AxisCommandKind::TakePlace: return take_place(order, is_resting(), loop);
+        case AxisCommandKind::Correct: return own_.correct(order, is_resting(), loop);
     }
 }
 
@@ -272,6 +273,7 @@ AxisState AxisController::state(const AxisLoop& loop, Ticks clock_error) const {
             .velocity = device.velocity,
             .tick = device.now,
             .following_error_steps = condition_.position.following_error(device),
+            .corrected_steps = condition_.position.corrected_steps(),
             .play_steps = condition_.position.play_steps(device),
             .command_done = condition_.orders.done(),
             .command_fault = condition_.orders.fault(),

@@ -18,6 +18,7 @@ FlightKind kind_of(AxisNotice::Kind kind) {
         case Kind::FrameRefused: return FlightKind::FrameRefused;
         case Kind::Vetoed: return FlightKind::Vetoed;
         case Kind::Touched: return FlightKind::Touched;
+        case Kind::StepsCorrected: return FlightKind::StepsCorrected;
         case Kind::HomingStage: return FlightKind::HomingStage;
         case Kind::Homed: return FlightKind::Homed;
         case Kind::Fault: return FlightKind::Fault;

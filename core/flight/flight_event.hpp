@@ -63,7 +63,8 @@ namespace lockstep {
     X(JobContinued, "job-continued")       /* count: near this line of the G-code */                                 \
     X(Reopened, "reopened")                /* its DDS participant; detail: ReopenReason; count: how often */         \
     X(LoopStuck, "loop-stuck")             /* lasts: how long its loop did not run; the process ends itself */       \
-    X(Touched, "touched")                  /* count: the tick at which the input of its epoch touched */
+    X(Touched, "touched")                  /* count: the tick at which the input of its epoch touched */             \
+    X(StepsCorrected, "steps-corrected")   /* count: steps lost, which it makes up at rest */
 
 enum class FlightKind : std::uint8_t {
 #define X(name, text) name,

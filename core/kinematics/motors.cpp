@@ -69,6 +69,7 @@ MotorConfig motor_of_axis(const AxisConfig& axis, AxisIndex place) {
             .method = axis.method,
             .unhomed_jog_mm_s = axis.unhomed_jog_mm_s,
             .max_following_error_mm = axis.max_following_error_mm,
+            .correct_following_error_mm = axis.correct_following_error_mm,
             .homing = axis.homing,
             .plant = axis.plant,
             .pins = axis.pins};
@@ -84,6 +85,7 @@ MotorConfig motor_of_block(const AxisConfig& axis, AxisIndex place, const MotorB
     motor.plant = block.plant.value_or(axis.plant);
     motor.pins = block.pins.value_or(axis.pins);
     if (block.max_following_error_mm) { motor.max_following_error_mm = block.max_following_error_mm; }
+    if (block.correct_following_error_mm) { motor.correct_following_error_mm = block.correct_following_error_mm; }
     return motor;
 }
 

@@ -29,8 +29,9 @@ struct MotorConfig {
     double position_min_mm = 0;
     double position_max_mm = 0;
     StepMethod method = StepMethod::Ranade;
-    std::optional<double> unhomed_jog_mm_s;        // greatest speed of a jog while unhomed; none: no such jog
-    std::optional<double> max_following_error_mm;  // by which its encoder may differ from the count; none: 3 steps
+    std::optional<double> unhomed_jog_mm_s;            // greatest speed of a jog while unhomed; none: no such jog
+    std::optional<double> max_following_error_mm;      // by which its encoder may differ from the count; none: 3 steps
+    std::optional<double> correct_following_error_mm;  // lost steps above this are made up at rest; none: never
     HomingConfig homing;
     PlantConfig plant;
     PinsConfig pins;

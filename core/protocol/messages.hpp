@@ -150,6 +150,7 @@ struct AxisState {
     Velocity velocity;
     Tick tick;                                  // when position and velocity were read
     std::int64_t following_error_steps = 0;     // encoder minus count, since it was homed
+    std::uint32_t corrected_steps = 0;          // lost since it was homed, and made up at rest
     std::int64_t play_steps = 0;                // the motor's place minus its slide's, because of its backlash
     std::uint64_t command_done = 0;             // the newest AxisCommand carried out or refused
     FaultCode command_fault = FaultCode::None;  // why it was refused; None: it was carried out
@@ -191,8 +192,20 @@ struct ClockReply {
 /// MoveOwn: the axis moves to a place by itself, not coordinated with others. Halt: it brakes and abandons a move of
 /// its own. Jog: it moves to a place by itself while the order is renewed. Approach: it moves to its home switch and
 /// waits there, for the other motors of its axis. Assume: it takes frames as if it rested at a place, to be homed by
-/// them. TakePlace: it truly rests there, so it is homed.
-enum class AxisCommandKind : std::uint8_t { Home, Reset, StopNow, MoveOwn, Halt, Jog, Approach, Assume, TakePlace };
+/// them. TakePlace: it truly rests there, so it is homed. Correct: it rests at a place by its count, and makes up the
+/// steps that its encoder shows as lost.
+enum class AxisCommandKind : std::uint8_t {
+    Home,
+    Reset,
+    StopNow,
+    MoveOwn,
+    Halt,
+    Jog,
+    Approach,
+    Assume,
+    TakePlace,
+    Correct
+};
 
 /// An order of the coordinator to one axis. It is repeated each slot until the axis's state reports it as done.
 struct AxisCommand {
@@ -200,7 +213,7 @@ struct AxisCommand {
     std::uint64_t sequence = 0;  // rises within a term; an axis carries out each once
     std::uint32_t axis = 0;
     AxisCommandKind kind = AxisCommandKind::Home;
-    std::int64_t target_steps = 0;  // MoveOwn, Jog, Assume, TakePlace: machine coordinates
+    std::int64_t target_steps = 0;  // MoveOwn, Jog, Assume, TakePlace, Correct: machine coordinates
     std::optional<Ticks> ticks;     // MoveOwn: how long it lasts; nullopt: as fast as the axis's limits allow
     double speed_mm_s = 0;          // Jog: the greatest speed, above 0
     Tick until;                     // Jog: the axis begins to brake by then, unless a repetition names a later time

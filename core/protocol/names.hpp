@@ -26,8 +26,9 @@ constexpr std::string_view name_of(CommandKind kind) {
 }
 
 constexpr std::string_view name_of(AxisCommandKind kind) {
-    return pick_name({"home", "reset", "stop now", "move", "halt", "jog", "approach", "assume place", "take place"},
-                     kind);
+    return pick_name(
+        {"home", "reset", "stop now", "move", "halt", "jog", "approach", "assume place", "take place", "correct"},
+        kind);
 }
 
 /// As records and reports name them.

@@ -35,6 +35,7 @@ void log_notice(const AxisNotice& notice) {
                              remedy(notice.fault));
         case Kind::Vetoed: return log_info("frame {} and those after it are vetoed", notice.number);
         case Kind::Touched: return log_info("the probe touched at tick {}", notice.number);
+        case Kind::StepsCorrected: return log_warning("{} steps were lost; makes them up", notice.number);
         case Kind::HomingStage: return log_info("homing: {}", name_of(static_cast<HomingStage>(notice.number)));
         case Kind::Homed: return log_info("homed and parked");
         case Kind::Fault: return log_event(spdlog::level::err, notice.fault, what_of(notice) + remedy(notice.fault));

@@ -55,6 +55,7 @@ Problems problems_of(const MachineDraft& draft, const Text& text) {
     if (problems.empty()) { add(kinematics_problems(draft.machine)); }
     if (problems.empty()) { add(backlash_problems(draft.machine)); }
     if (problems.empty()) {
+        add(correction_problems(draft.machine));
         add(pin_problems(draft.machine));
         add(input_problems(draft.machine));
         add(output_problems(draft.machine));

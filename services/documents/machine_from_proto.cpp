@@ -243,6 +243,9 @@ MotorBlock read_motor(const proto::Motor& message, const AxisConfig& axis, const
     for (const MotorLimit& limit : kMotorLimits) { motor.*limit.of_block = limit_in(message, limit); }
     motor.switch_offset_mm = message.switch_offset_mm();
     if (message.has_max_following_error_mm()) { motor.max_following_error_mm = message.max_following_error_mm(); }
+    if (message.has_correct_following_error_mm()) {
+        motor.correct_following_error_mm = message.correct_following_error_mm();
+    }
     if (message.has_plant()) { motor.plant = read_plant(message.plant(), axis); }
     if (message.has_pins()) { motor.pins = read_pins(message.pins()); }
     motor.screw = read_screw(message.screw(), place + ".screw", reader);
@@ -331,6 +334,9 @@ AxisConfig read_axis(const proto::Axis& message, ProtoReader reader) {
     if (message.has_unhomed_jog_mm_s()) { axis.unhomed_jog_mm_s = message.unhomed_jog_mm_s(); }
     if (message.has_safe_height_mm()) { axis.safe_height_mm = message.safe_height_mm(); }
     if (message.has_max_following_error_mm()) { axis.max_following_error_mm = message.max_following_error_mm(); }
+    if (message.has_correct_following_error_mm()) {
+        axis.correct_following_error_mm = message.correct_following_error_mm();
+    }
     axis.host = message.host();
     axis.device = read_device(message.device(), "device", reader);
     axis.homing = read_homing(message.homing(), axis, message.motor_size() > 1);

@@ -38,6 +38,8 @@ std::vector<Problem> board_problems(const MachineConfig& machine);
 /// Checks the errors of screws, after all axes and motors were found sound.
 std::vector<Problem> screw_problems(const MachineConfig& machine);
 
+/// Checks which lost steps motors make up, after the kinematics were found sound.
+std::vector<Problem> correction_problems(const MachineConfig& machine);
 /// Checks the backlash of motors, after the kinematics were found sound.
 std::vector<Problem> backlash_problems(const MachineConfig& machine);
 

@@ -149,6 +149,7 @@ void write_motor(const MotorBlock& motor, proto::Motor& message) {
     message.set_device(motor.device.text());
     message.set_switch_offset_mm(motor.switch_offset_mm);
     if (motor.max_following_error_mm) { message.set_max_following_error_mm(*motor.max_following_error_mm); }
+    if (motor.correct_following_error_mm) { message.set_correct_following_error_mm(*motor.correct_following_error_mm); }
     if (motor.plant) { write_plant(*motor.plant, *message.mutable_plant()); }
     if (motor.pins) { write_pins(*motor.pins, *message.mutable_pins()); }
     if (!motor.screw.empty()) { write_screw(motor.screw, *message.mutable_screw()); }
@@ -229,6 +230,7 @@ void write_axis(const AxisConfig& axis, proto::Axis& message) {
     if (axis.unhomed_jog_mm_s) { message.set_unhomed_jog_mm_s(*axis.unhomed_jog_mm_s); }
     if (axis.safe_height_mm) { message.set_safe_height_mm(*axis.safe_height_mm); }
     if (axis.max_following_error_mm) { message.set_max_following_error_mm(*axis.max_following_error_mm); }
+    if (axis.correct_following_error_mm) { message.set_correct_following_error_mm(*axis.correct_following_error_mm); }
     if (!axis.host.empty()) { message.set_host(axis.host); }
     if (axis.device != AxisConfig{}.device) { message.set_device(axis.device.text()); }
     write_homing(axis.homing, *message.mutable_homing());

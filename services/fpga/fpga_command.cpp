@@ -17,6 +17,8 @@ int run_fpga_command(int argc, char** argv, const char* summary, MakeDevice make
     parser.add_option("--closed-inputs", options.closed_inputs,
                       "a file with the names of the inputs of the machine that are closed; write it to press or open "
                       "them");
+    parser.add_option("--pushes", options.pushes,
+                      "a file with lines of a motor's name and by how many mm a hand has pushed its slide so far");
     parser.footer(
         "Examples:\n  lockstep-fpga --machine machine.textproto --axis X --name lockstep-x\n"
         "  lockstep-fpga --machine machine.textproto --axis X --file /run/lockstep/x.registers\n"

@@ -14,6 +14,7 @@
 #include "core/kinematics/motors.hpp"
 #include "services/documents/edit/kept_settings.hpp"
 #include "services/fpga/closed_inputs.hpp"
+#include "services/fpga/pushed_slide.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/end_guard.hpp"
 #include "services/runtime/log.hpp"
@@ -41,6 +42,7 @@ public:
           tick_ns_(machine.tick_ns),
           clock_(machine.tick_ns, machine.timing.time_source),
           inputs_(machine, motor, options.closed_inputs),
+          slide_(motor, options.pushes),
           plant_(plant_of(machine, motor)) {}
 
     /// Error: why its registers cannot be created.
@@ -70,6 +72,7 @@ public:
             if (auto up = power_up(); !up) { return up; }
         }
         inputs_.apply_to(device_->plant());
+        slide_.apply_to(device_->plant());
         const auto run = [this](Tick until) { device_->advance(until); };
         touched_ ? touched_->advance(clock_.now(), device_->plant(), run) : run(clock_.now());
         return {};
@@ -81,6 +84,7 @@ private:
     std::int64_t tick_ns_;
     MachineClock clock_;
     ClosedInputs inputs_;
+    PushedSlide slide_;
     Plant plant_;
     std::unique_ptr<ServedDevice> device_;
     std::optional<TouchedDevice> touched_;  // none: the machine has no workpiece

@@ -16,6 +16,7 @@ struct FpgaOptions {
     std::string name;           // name of the shared memory; empty: the registers are in `file`
     std::string file;           // path of the register file
     std::string closed_inputs;  // path of the file with the names of closed inputs; empty: none closes
+    std::string pushes;         // path of the file with the ways that a hand pushes slides; empty: none is pushed
 };
 
 /// Serves until SIGINT or SIGTERM. Returns the exit code: 0 after a requested end, 1 after a failure, with the cause in

@@ -14,6 +14,7 @@ void PositionLog::take_steps(std::optional<Tick> last) {
 void PositionLog::take(const PositionSample& sample, const StepsEnd& steps) {
     if (count_++ == 0) { first_steps_ = sample.position_steps; }
     following_error_ = std::max(following_error_, std::abs(sample.following_error_steps));
+    if (takes_over_encoder(sample)) { corrected_ += std::abs(last_->following_error_steps); }
     if (has_new_zero(sample)) {
         origin_ = sample;
         farthest_.reset();
@@ -27,10 +28,20 @@ void PositionLog::take(const PositionSample& sample, const StepsEnd& steps) {
     }
 }
 
-/// Homing and a new process give positions another zero.
+/// Homing, a new process and a correction of lost steps give positions another zero.
 bool PositionLog::has_new_zero(const PositionSample& sample) const {
     if (!last_) { return false; }
-    return sample.incarnation != last_->incarnation || (sample.is_homed && !last_->is_homed);
+    return sample.incarnation != last_->incarnation || (sample.is_homed && !last_->is_homed) ||
+           takes_over_encoder(sample);
+}
+
+/// A motor that makes up lost steps takes, at rest, the place that its encoder shows. Later positions may be on its way
+/// from there.
+bool PositionLog::takes_over_encoder(const PositionSample& sample) const {
+    if (!last_ || !last_->is_homed || !sample.is_homed || sample.incarnation != last_->incarnation) { return false; }
+    const std::int64_t moved = sample.position_steps - last_->position_steps;
+    return sample.following_error_steps == 0 && moved != 0 && moved == last_->following_error_steps &&
+           last_->velocity_mm_per_s == 0;
 }
 
 /// The steps from the last recorded step to a later position.

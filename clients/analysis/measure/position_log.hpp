@@ -35,6 +35,8 @@ public:
     std::int64_t count() const { return count_; }
     /// Without its sign.
     std::int64_t largest_following_error() const { return following_error_; }
+    /// The steps lost that were made up at rest.
+    std::int64_t corrected_steps() const { return corrected_; }
     /// From the positions in mm and in steps; nullopt if all are 0.
     std::optional<double> steps_per_mm() const { return steps_per_mm_; }
     /// The steps from the last recorded step to the last position. If these agree, the largest distance of any position
@@ -45,9 +47,11 @@ public:
 private:
     std::int64_t unrecorded_at(const PositionSample& sample, const StepsEnd& steps) const;
     bool has_new_zero(const PositionSample& sample) const;
+    bool takes_over_encoder(const PositionSample& sample) const;
 
     std::int64_t count_ = 0;
     std::int64_t following_error_ = 0;
+    std::int64_t corrected_ = 0;
     std::int64_t first_steps_ = 0;  // of the first position
     std::optional<PositionSample> last_;
     std::optional<PositionSample> origin_;    // the first with the newest zero, until steps with it are recorded

@@ -1,18 +1,21 @@
 #include "clients/scenario/model/act_rules.hpp"
 
+#include "clients/scenario/model/name_rules.hpp"
 #include "core/overrides.hpp"
 
 namespace lockstep::scenario {
 namespace {
 
 constexpr double kMostActSeconds = 60;
+constexpr double kMostPush_mm = 1000;
 
 class ActRules {
     using Act = Asked::Act;
 
 public:
-    ActRules(const std::string& path, const Asked& asked, const std::vector<std::string>& processes, Problems& problems)
-        : path_(path), asked_(asked), processes_(processes), problems_(problems) {}
+    ActRules(const std::string& path, const Asked& asked, const MachineConfig& machine,
+             const std::vector<std::string>& processes, Problems& problems)
+        : path_(path), asked_(asked), machine_(machine), processes_(processes), problems_(problems) {}
 
     void check(const Act& act) {
         check_what(act);
@@ -38,11 +41,12 @@ private:
             case Act::kOverride: return check_override(act.override());
             case Act::kCloseInput: return require_devices("close_input");
             case Act::kOpenInput: return require_devices("open_input");
+            case Act::kPush: return check_push(act.push());
             case Act::WHAT_NOT_SET: break;
         }
         problems_.add(path_,
                       "this act is empty; use one of: kill, restart, pause, unpause, cut, lose, heal, command, "
-                      "override, close_input or open_input");
+                      "override, close_input, open_input or push");
     }
 
     void require_process(const std::string& key, const std::string& name, const std::vector<std::string>& names) {
@@ -57,8 +61,16 @@ private:
     void require_devices(const std::string& key) {
         problems_.require(asked_.separate_devices() && asked_.place() != Asked::CONTAINER, path_ + "." + key,
                           key +
-                              " presses a device that is a process of this host; set separate_devices: true, and not "
+                              " reaches a device that is a process of this host; set separate_devices: true, and not "
                               "place: CONTAINER");
+    }
+
+    void check_push(const Asked::Push& push) {
+        require_devices("push");
+        require_motor(problems_, machine_, path_ + ".push.motor", push.motor());
+        problems_.require(push.has_mm(), path_ + ".push.mm",
+                          "mm is missing; it is how far the slide is pushed, signed");
+        problems_.require_range(path_ + ".push", "mm", push.mm(), -kMostPush_mm, kMostPush_mm);
     }
 
     /// A device has no link: its axis reaches it through memory.
@@ -105,15 +117,16 @@ private:
 
     const std::string& path_;
     const Asked& asked_;
+    const MachineConfig& machine_;
     const std::vector<std::string>& processes_;
     Problems& problems_;
 };
 
 }  // namespace
 
-void check_act(const Asked::Act& act, const std::string& path, const Asked& asked,
+void check_act(const Asked::Act& act, const std::string& path, const Asked& asked, const MachineConfig& machine,
                const std::vector<std::string>& processes, Problems& problems) {
-    ActRules(path, asked, processes, problems).check(act);
+    ActRules(path, asked, machine, processes, problems).check(act);
 }
 
 }  // namespace lockstep::scenario

@@ -9,7 +9,7 @@
 namespace lockstep::scenario {
 
 /// `path`: the act's place in the scenario. `processes`: those of the machine.
-void check_act(const Asked::Act& act, const std::string& path, const Asked& asked,
+void check_act(const Asked::Act& act, const std::string& path, const Asked& asked, const MachineConfig& machine,
                const std::vector<std::string>& processes, Problems& problems);
 
 }  // namespace lockstep::scenario

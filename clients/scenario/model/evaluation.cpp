@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "clients/scenario/model/expectation_text.hpp"
 #include "clients/scenario/model/final_place.hpp"
@@ -134,6 +135,11 @@ private:
         };
         if (end.has_heard()) { add_fact(received_text(end), end.heard(), is_present, "received"); }
         if (end.has_homed()) { add_fact(homed_text(end), end.homed(), is_present && axis->homed(), "homed"); }
+        if (end.has_corrected_steps()) {
+            const std::uint64_t found_steps = axis != nullptr ? axis->corrected_steps() : 0;
+            add(corrected_text(end), fmt::format("{} steps", found_steps), "status at the end",
+                std::cmp_equal(found_steps, end.corrected_steps()));
+        }
         if (!end.has_fault()) { return; }
         const std::string fault = !is_present ? "not received" : axis->has_fault() ? axis->fault().name() : "none";
         add(fault_text(end), fault, "status at the end", fault == end.fault());

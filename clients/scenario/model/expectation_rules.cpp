@@ -87,8 +87,10 @@ private:
     void check_axis(int index, const std::string& path) {
         const Asked::AxisEnd& end = expect_.axis(index);
         require_axis_or_motor(problems_, machine_, path + ".name", end.name());
-        problems_.require(end.has_heard() || end.has_homed() || end.has_fault(), path,
-                          "this checks nothing; set heard, homed or fault");
+        problems_.require(end.has_heard() || end.has_homed() || end.has_fault() || end.has_corrected_steps(), path,
+                          "this checks nothing; set heard, homed, fault or corrected_steps");
+        problems_.require(end.corrected_steps() >= 0, path + ".corrected_steps",
+                          fmt::format("corrected_steps is {}; it is a count, 0 at least", end.corrected_steps()));
         if (end.has_fault()) { require_fault(problems_, path + ".fault", end.fault(), true); }
         const bool is_absent = end.has_heard() && !end.heard();
         problems_.require(!is_absent || !end.homed(), path + ".homed",

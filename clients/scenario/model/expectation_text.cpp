@@ -46,6 +46,10 @@ std::string received_text(const Asked::AxisEnd& end) {
     return end.name() + (end.heard() ? " received" : " not received");
 }
 
+std::string corrected_text(const Asked::AxisEnd& end) {
+    return fmt::format("{} made up {} lost steps", end.name(), end.corrected_steps());
+}
+
 std::string homed_text(const Asked::AxisEnd& end) { return end.name() + (end.homed() ? " homed" : " not homed"); }
 
 std::string fault_text(const Asked::AxisEnd& end) { return end.name() + " has fault " + end.fault(); }
@@ -64,6 +68,7 @@ std::vector<std::string> expectation_texts(const Asked::Expect& expect) {
         if (end.has_heard()) { texts.push_back(received_text(end)); }
         if (end.has_homed()) { texts.push_back(homed_text(end)); }
         if (end.has_fault()) { texts.push_back(fault_text(end)); }
+        if (end.has_corrected_steps()) { texts.push_back(corrected_text(end)); }
     }
     if (expect.has_phase()) { texts.push_back(phase_text(expect)); }
     if (!expect.has_exact() || expect.exact()) { texts.emplace_back(kExactText); }

@@ -17,9 +17,10 @@ std::string interruptions_text(const Asked::Expect& expect);  // "2 interruption
 std::string together_text(const Asked::Expect& expect);       // "X, Y ended each epoch with the same frame"
 std::string phase_text(const Asked::Expect& expect);          // "the machine is Idle at the end"
 
-std::string received_text(const Asked::AxisEnd& end);  // "X received", "X not received"
-std::string homed_text(const Asked::AxisEnd& end);     // "X homed", "X not homed"
-std::string fault_text(const Asked::AxisEnd& end);     // "X has fault limit-hit"
+std::string received_text(const Asked::AxisEnd& end);   // "X received", "X not received"
+std::string corrected_text(const Asked::AxisEnd& end);  // "X made up 5 lost steps"
+std::string homed_text(const Asked::AxisEnd& end);      // "X homed", "X not homed"
+std::string fault_text(const Asked::AxisEnd& end);      // "X has fault limit-hit"
 
 inline constexpr const char* kExactText = "every step as planned";
 inline constexpr const char* kCompleteText = "nothing missing in the record";

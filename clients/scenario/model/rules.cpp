@@ -93,7 +93,9 @@ private:
             case Asked::Step::kRun: check_run(step.run(), path + ".run"); break;
             case Asked::Step::kMove: check_move(step.move(), path + ".move"); break;
             case Asked::Step::kWait: check_wait(step.wait(), path + ".wait"); break;
-            case Asked::Step::kAct: check_act(step.act(), path + ".act", asked_, processes_, problems_); break;
+            case Asked::Step::kAct:
+                check_act(step.act(), path + ".act", asked_, machine_, processes_, problems_);
+                break;
             case Asked::Step::WHAT_NOT_SET:
                 problems_.add(path, "this step is empty; use one of: home, run, move, wait or act");
         }
@@ -172,7 +174,7 @@ private:
         if (during.has_rests_within_frames()) {
             problems_.require_range(path, "rests_within_frames", during.rests_within_frames(), 1, kMostFrames);
         }
-        if (during.has_act()) { check_act(during.act(), path + ".act", asked_, processes_, problems_); }
+        if (during.has_act()) { check_act(during.act(), path + ".act", asked_, machine_, processes_, problems_); }
         check_outputs(during, path, scenario_, problems_);
     }
 

@@ -54,6 +54,7 @@ std::string what_text(const Asked::Act& act) {
         case Act::kOverride: return override_text(act.override());
         case Act::kCloseInput: return "close input " + act.close_input();
         case Act::kOpenInput: return "open input " + act.open_input();
+        case Act::kPush: return fmt::format("push {} by {} mm", act.push().motor(), number_text(act.push().mm()));
         case Act::WHAT_NOT_SET: break;
     }
     return "nothing";

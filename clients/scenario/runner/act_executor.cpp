@@ -4,6 +4,7 @@
 
 #include "clients/session/command_effect.hpp"
 #include "clients/session/waits.hpp"
+#include "core/number_text.hpp"
 #include "services/files/text_file.hpp"
 #include "services/runtime/clock.hpp"
 
@@ -69,6 +70,7 @@ Done ActExecutor::apply(const Asked::Act& act) {
         }
         case Act::kCloseInput: return set_input(act.close_input(), true);
         case Act::kOpenInput: return set_input(act.open_input(), false);
+        case Act::kPush: return push(act.push());
         case Act::WHAT_NOT_SET: break;
     }
     return std::unexpected("the act is empty");
@@ -82,7 +84,19 @@ Done ActExecutor::set_input(const std::string& name, bool closed) {
     closed ? void(closed_.insert(name)) : void(closed_.erase(name));
     std::string text;
     for (const std::string& one : closed_) { text += one + "\n"; }
-    if (const auto written = write_text_file(inputs_file_, text); !written) { return std::unexpected(written.error()); }
+    if (const auto written = write_text_file(files_.closed_inputs, text); !written) {
+        return std::unexpected(written.error());
+    }
+    return {};
+}
+
+Done ActExecutor::push(const Asked::Push& push) {
+    pushed_mm_[push.motor()] += push.mm();
+    std::string text;
+    for (const auto& [motor, mm] : pushed_mm_) { text += motor + " " + number_text(mm) + "\n"; }
+    if (const auto written = write_text_file(files_.pushes, text); !written) {
+        return std::unexpected(written.error());
+    }
     return {};
 }
 

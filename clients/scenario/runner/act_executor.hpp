@@ -5,6 +5,7 @@
 #include <chrono>
 #include <expected>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,11 +18,16 @@
 
 namespace lockstep::scenario {
 
+/// The files that tell the simulated devices what people do to them.
+struct DeviceFiles {
+    std::filesystem::path closed_inputs;
+    std::filesystem::path pushes;
+};
+
 class ActExecutor {
 public:
-    /// `closed_inputs`: the file that tells the devices which inputs are closed.
-    ActExecutor(ProcessSet& processes, Network& network, Session& session, std::filesystem::path closed_inputs)
-        : processes_(processes), network_(network), session_(session), inputs_file_(std::move(closed_inputs)) {}
+    ActExecutor(ProcessSet& processes, Network& network, Session& session, DeviceFiles files)
+        : processes_(processes), network_(network), session_(session), files_(std::move(files)) {}
 
     /// The error says why the act failed, or quotes the machine's refusal.
     std::expected<void, std::string> execute(const Asked::Act& act);
@@ -43,12 +49,14 @@ private:
     std::expected<void, std::string> stop_at_once();
     std::expected<void, std::string> ask(const Command& command);
     std::expected<void, std::string> set_input(const std::string& name, bool closed);
+    std::expected<void, std::string> push(const Asked::Push& push);
 
     ProcessSet& processes_;
     Network& network_;
     Session& session_;
-    std::filesystem::path inputs_file_;
-    std::set<std::string> closed_;  // inputs
+    DeviceFiles files_;
+    std::set<std::string> closed_;             // inputs
+    std::map<std::string, double> pushed_mm_;  // of motors, so far
     std::vector<Undo> undoing_;
 };
 

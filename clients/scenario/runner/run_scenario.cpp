@@ -42,7 +42,7 @@ std::string clock_error_text(const Asked::WrongClock& clock) {
 
 /// The command lines of all processes, each in its own network or container.
 std::vector<ServiceLine> lines_of(const Scenario& scenario, const Network& network, const Containers* containers,
-                                  const StateDirectory& state, const fs::path& closed_inputs) {
+                                  const StateDirectory& state, const DeviceFiles& files) {
     const Layout layout{scenario.asked.separate_devices() ? FpgaKind::Shared : FpgaKind::Sim, scenario.asked.standby(),
                         scenario.asked.continues()};
     const fs::path programs = containers == nullptr ? program_folder() : "";
@@ -53,8 +53,9 @@ std::vector<ServiceLine> lines_of(const Scenario& scenario, const Network& netwo
             line.words.insert(line.words.end(), {"--clock-error", clock_error_text(clock)});
         }
         const bool is_device = line.name.starts_with("fpga-");
-        if (is_device && !scenario.machine.inputs.empty()) {
-            line.words.insert(line.words.end(), {"--closed-inputs", closed_inputs.string()});
+        if (is_device) {
+            line.words.insert(line.words.end(),
+                              {"--closed-inputs", files.closed_inputs.string(), "--pushes", files.pushes.string()});
         }
         const CommandLine entry = containers == nullptr ? network.entry(line.name)
                                                         : containers->entry(line.name, network.namespace_of(line.name));
@@ -143,10 +144,10 @@ void add_clock_checks(const Scenario& scenario, std::chrono::nanoseconds lived, 
 }
 
 Observations run_session(const Scenario& scenario, const ChosenMachine& machine, ProcessSet& processes,
-                         Network& network, const StateDirectory& state, const fs::path& closed_inputs) {
+                         Network& network, const StateDirectory& state, const DeviceFiles& files) {
     auto session = Session::join(machine, Purpose::Command);
     if (!session) { return broken(to_text("", session.error().errors)); }
-    ActExecutor acts(processes, network, *session, closed_inputs);
+    ActExecutor acts(processes, network, *session, files);
     ScenarioExecutor executor(scenario, *session, processes, acts);
     const auto begun = monotonic_now();
     if (const auto up = bring_up(scenario, processes, *session, executor, state); !up) { return broken(up.error()); }
@@ -173,11 +174,11 @@ Observations run_machine(const Scenario& scenario, const Containers* containers,
     if (!network) { return broken(network.error()); }
     const Logger logger(scenario.machine.network.lcm_url, folder);
     if (!logger.pid()) { return broken(logger.pid().error()); }
-    const fs::path closed_inputs = folder / "closed-inputs";
-    ProcessSet processes(lines_of(scenario, *network, containers, state, closed_inputs), state,
+    const DeviceFiles files{folder / "closed-inputs", folder / "pushes"};
+    ProcessSet processes(lines_of(scenario, *network, containers, state, files), state,
                          containers == nullptr ? fs::path() : Containers::pid_folder());
     Observations observed = run_session(scenario, {file, scenario.machine, config_hash(scenario.machine)}, processes,
-                                        *network, state, closed_inputs);
+                                        *network, state, files);
     observed.checks.push_back(processes.exit_check());
     processes.end_all();
     return observed;

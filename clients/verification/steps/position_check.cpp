@@ -13,11 +13,17 @@ void PositionCheck::set_machine(const MachineConfig& machine) {
         std::ranges::any_of(machine.axes, [](const AxisConfig& axis) { return row_of(axis.homing.way).runs_programs; });
 }
 
+/// A motor that makes up lost steps takes the place that its encoder shows, which then does not differ any more.
+bool PositionCheck::has_new_zero(const SeenPosition& position) const {
+    if (assumes_places_ && !position.is_homed) { return true; }
+    if (!last_) { return false; }
+    const bool is_other = position.incarnation != last_->incarnation || position.is_homed != last_->is_homed;
+    return is_other || (last_->following_error != 0 && position.following_error == 0);
+}
+
 void PositionCheck::take(const SeenPosition& position) {
-    const bool is_other = last_ && (position.incarnation != last_->incarnation || position.is_homed != last_->is_homed);
-    const bool has_new_zero = is_other || (assumes_places_ && !position.is_homed);
     if (last_ && position.tick < last_->tick) { return wait(position); }
-    if (has_new_zero) { zero_since_ = position.tick; }
+    if (has_new_zero(position)) { zero_since_ = position.tick; }
     last_ = position;
     wait(position);
 }

@@ -21,6 +21,7 @@ struct SeenPosition {
     std::int64_t steps = 0;
     std::int64_t incarnation = 0;
     bool is_homed = false;
+    std::int64_t following_error = 0;  // encoder minus count, in steps
 };
 
 class PositionCheck {
@@ -67,6 +68,7 @@ private:
         std::int64_t count = 0;
     };
     void wait(const SeenPosition& position);
+    bool has_new_zero(const SeenPosition& position) const;
     void pass_before(Tick tick);
     std::optional<std::string> compare(const SeenPosition& position, Ticks reach) const;
     static std::string text(const SeenPosition& position, const Range& allowed);

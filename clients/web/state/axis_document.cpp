@@ -72,11 +72,11 @@ json health_json(const Snapshot& snapshot, const AxisSnapshot& axis, const Machi
 }
 
 json never_received() {
-    return {{"present", false},          {"age_ms", nullptr},   {"position", nullptr},
-            {"position_steps", nullptr}, {"velocity", nullptr}, {"state", nullptr},
-            {"homed", nullptr},          {"at_rest", nullptr},  {"following_error_steps", nullptr},
-            {"clock_error_us", nullptr}, {"fault", nullptr},    {"unproved", nullptr},
-            {"switches", nullptr},       {"health", nullptr}};
+    return {{"present", false},           {"age_ms", nullptr},         {"position", nullptr},
+            {"position_steps", nullptr},  {"velocity", nullptr},       {"state", nullptr},
+            {"homed", nullptr},           {"at_rest", nullptr},        {"following_error_steps", nullptr},
+            {"corrected_steps", nullptr}, {"clock_error_us", nullptr}, {"fault", nullptr},
+            {"unproved", nullptr},        {"switches", nullptr},       {"health", nullptr}};
 }
 
 /// Whose fault it is: the axis's, or that of the first of its motors which has it.
@@ -113,6 +113,7 @@ json shown_json(const Snapshot& snapshot, const Shown& shown, const MachineConfi
             {"homed", state.homed},
             {"at_rest", state.at_rest},
             {"following_error_steps", state.following_error_steps},
+            {"corrected_steps", state.corrected_steps},
             {"clock_error_us", rounded(machine.microseconds(state.clock_error), kTimeDigits)},
             {"fault", fault_or_null(state.fault, shown.of_fault)},
             {"unproved", fault_or_null(state.unproved, shown.of_unproved)},

@@ -3,7 +3,6 @@
 #include <cstdlib>
 
 #include "core/kinematics/motors.hpp"
-#include "core/number_text.hpp"
 
 namespace lockstep {
 
@@ -15,12 +14,6 @@ PositionScale scale_of(const MachineConfig& machine, MotorIndex motor) {
             config.homing.switch_position_mm,
             config.homing.toward_min,
             config.backlash.steps};
-}
-
-std::int64_t most_following_error(const MotorConfig& motor) {
-    constexpr std::int64_t kUsual = 3;
-    if (!motor.max_following_error_mm) { return kUsual; }
-    return static_cast<std::int64_t>(*motor.max_following_error_mm * motor.steps_per_mm * (1 + kTextRounding));
 }
 
 FaultCode doubt_of(const KeptPosition& kept, const PositionScale& scale, const DeviceStatus& device,

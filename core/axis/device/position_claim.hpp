@@ -47,9 +47,6 @@ struct KeptPosition {
 /// The position that the previous process kept. Errors: PositionNotKept, PositionUnreadable.
 using KeptOrNot = std::expected<KeptPosition, FaultCode>;
 
-/// Greatest difference between a motor's encoder and its count, in steps. Beyond it steps count as lost.
-std::int64_t most_following_error(const MotorConfig& motor);
-
 /// Returns None if the kept zero is proved, so that the axis is homed. Otherwise returns why it is not proved.
 /// `most_pushed`: most_following_error() of the motor.
 FaultCode doubt_of(const KeptPosition& kept, const PositionScale& scale, const DeviceStatus& device,

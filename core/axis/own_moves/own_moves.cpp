@@ -88,6 +88,22 @@ void OwnMoves::move(const AxisCommand& order, bool is_resting, AxisLoop& loop) {
     start({.steps = steps, .speed_mm_s = motor_.max_velocity_mm_s, .ticks = order.ticks}, 0, loop);
 }
 
+/// The motor goes from where its encoder shows it to where it should rest, at a speed to which it can jump: it has just
+/// shown that its torque is short.
+void OwnMoves::correct(const AxisCommand& order, bool is_resting, AxisLoop& loop) {
+    AxisPosition& position = loop.condition.position;
+    const DeviceStatus& device = loop.device.status();
+    const std::int64_t lost = position.following_error(device);
+    FaultCode why = refusal_of(order, lost, is_resting, loop);
+    const bool is_there = position.in_machine(device.position).count() == order.target_steps;
+    if (why == FaultCode::None && !is_there) { why = FaultCode::PositionMismatch; }
+    if (why != FaultCode::None) { return loop.refuse(order, why); }
+    if (lost == 0) { return loop.condition.orders.end(FaultCode::None); }
+    position.take_over_encoder(device);
+    loop.notice({AxisNotice::Kind::StepsCorrected, FaultCode::None, static_cast<std::uint64_t>(std::abs(lost))});
+    start({.steps = -lost, .speed_mm_s = motor_.start_velocity_mm_s}, 0, loop);
+}
+
 FaultCode OwnMoves::refusal_of(const AxisCommand& order, std::int64_t steps, bool is_resting,
                                const AxisLoop& loop) const {
     if (!is_resting || loop.device.status().moving) { return FaultCode::Busy; }

@@ -22,6 +22,8 @@ public:
     // Take orders of the owner. `is_resting`: the axis runs nothing, neither its own nor the owner's frames.
     void home(const AxisCommand& order, bool is_resting, AxisLoop& loop);
     void move(const AxisCommand& order, bool is_resting, AxisLoop& loop);
+    /// Makes up lost steps. The axis must rest at the order's target, by its count.
+    void correct(const AxisCommand& order, bool is_resting, AxisLoop& loop);
     /// Moves towards the target while the order is renewed. The axis rests at the target at the latest.
     void jog(const AxisCommand& order, bool is_resting, AxisLoop& loop);
     /// Takes a repeated order of a jog.

@@ -69,11 +69,12 @@ struct AxisNotice {
         CommandRefused,
         PositionProved,    // the axis is homed by the position that was kept
         PositionUnproved,  // the kept position does not home the axis; `fault` gives the reason
-        Touched            // the input at whose touch the epoch ends
+        Touched,           // the input at whose touch the epoch ends
+        StepsCorrected     // steps were lost; the axis makes them up by a move of its own
     };
     Kind kind = Kind::Fault;
     FaultCode fault = FaultCode::None;
-    std::uint64_t number = 0;          // a term, epoch, frame, stage or tick; steps lost of a FollowingError
+    std::uint64_t number = 0;          // a term, epoch, frame, stage or tick; steps lost
     std::optional<FailedCheck> check;  // Vetoed: the check that failed
 };
 

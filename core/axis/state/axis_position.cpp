@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/kinematics/following_error.hpp"
 #include "core/kinematics/motors.hpp"
 
 namespace lockstep {
@@ -44,9 +45,17 @@ void AxisPosition::assume_zero(std::int64_t zero_count) {
 void AxisPosition::set_zero(std::int64_t zero_count, const DeviceStatus& device) {
     zero_count_ = zero_count;
     encoder_zero_ = device.encoder_count - device.position.count();
+    corrected_ = 0;
     play_.begin(0, device.position.count());
     homed_ = true;
     is_assumed_ = false;
+}
+
+void AxisPosition::take_over_encoder(const DeviceStatus& device) {
+    const std::int64_t error = following_error(device);
+    zero_count_ -= error;
+    encoder_zero_ += error;
+    corrected_ += static_cast<std::uint32_t>(std::abs(error));
 }
 
 void AxisPosition::lose_device() {

@@ -56,6 +56,11 @@ public:
         return homed_ && std::abs(following_error(device)) > most_following_error_;
     }
 
+    /// The motor rests where its encoder shows it: lost steps move its place, and no longer count as lost.
+    void take_over_encoder(const DeviceStatus& device);
+    /// The steps lost since the homing whose loss was taken over, without their signs.
+    std::uint32_t corrected_steps() const { return corrected_; }
+
     /// Call it at rest without a fault. Returns the position to keep, once after each run that leaves the axis homed.
     std::optional<KeptPosition> keep(const DeviceView& device);
 
@@ -69,6 +74,7 @@ private:
     FaultCode unproved_ = FaultCode::DeviceMissing;
     std::int64_t zero_count_ = 0;
     std::int64_t encoder_zero_ = 0;  // encoder minus count, at the homing
+    std::uint32_t corrected_ = 0;    // steps
     std::uint64_t kept_run_ = 0;     // the run after which the position was kept last
     FollowedPlay play_;
 };

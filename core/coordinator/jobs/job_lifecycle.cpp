@@ -64,9 +64,15 @@ void JobLifecycle::pause(activity::Paused paused, CoordinatorLoop& loop) {
     activity_.become(MachineEvent::Pauses, std::move(paused), loop.out);
 }
 
-void JobLifecycle::go_on(activity::Paused paused, CoordinatorLoop& loop) {
-    const PathNext next = path_.begin_leg(paused.task, loop, loop.out.events);
-    follow(std::move(paused.task), next, {}, loop);
+void JobLifecycle::go_on(PathTask task, CoordinatorLoop& loop) {
+    const OwnTargets lost = OwnTargets::of_lost_steps(loop);
+    if (lost.motors().empty()) {
+        const PathNext next = path_.begin_leg(task, loop, loop.out.events);
+        return follow(std::move(task), next, {}, loop);
+    }
+    lost.order(loop.orders, loop.term);
+    activity::Correcting correcting{{}, std::move(task), lost};
+    activity_.become(MachineEvent::OwnMovesBegin, std::move(correcting), loop.out);
 }
 
 void JobLifecycle::end(JobOutcome outcome, CoordinatorLoop& loop) {
@@ -96,7 +102,7 @@ void JobLifecycle::end_in_pause(const MachineJob& job, activity::Paused pause, J
     if (!is_return || outcome != JobOutcome::Done) {
         return activity_.become(MachineEvent::Pauses, std::move(pause), loop.out);
     }
-    pause.why.wait ? this->pause(std::move(pause), loop) : go_on(std::move(pause), loop);
+    pause.why.wait ? this->pause(std::move(pause), loop) : go_on(std::move(pause.task), loop);
 }
 
 void JobLifecycle::end_early(const MachineJob& job, std::optional<std::int32_t> line, FaultCode why,
@@ -151,6 +157,7 @@ void halt_axes(MachineActivity& activity, CoordinatorLoop& loop) {
         const bool moves = loop.orders.is_open(m, AxisCommandKind::MoveOwn, loop.axes) ||
                            loop.orders.is_open(m, AxisCommandKind::Home, loop.axes) ||
                            loop.orders.is_open(m, AxisCommandKind::Approach, loop.axes) ||
+                           loop.orders.is_open(m, AxisCommandKind::Correct, loop.axes) ||
                            loop.orders.is_open(m, AxisCommandKind::Jog, loop.axes);
         if (moves) { (void)loop.order(m, AxisCommandKind::Halt); }
     }

@@ -33,8 +33,8 @@ public:
     void follow(PathTask task, const PathNext& next, std::optional<activity::Paused> pause, CoordinatorLoop& loop);
     /// The job rests between two legs. If its program asks for an input, it waits for that from now on.
     void pause(activity::Paused paused, CoordinatorLoop& loop);
-    /// Begins the next leg of a paused job.
-    void go_on(activity::Paused paused, CoordinatorLoop& loop);
+    /// Goes on to the next leg of a job that rests, after motors have made up the steps that they lost.
+    void go_on(PathTask task, CoordinatorLoop& loop);
     /// Ends the job in motion or held: done or stopped. A job in whose pause it took place waits again, or goes on.
     void end(JobOutcome outcome, CoordinatorLoop& loop);
 

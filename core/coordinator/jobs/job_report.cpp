@@ -101,6 +101,10 @@ void report_job(const JobLifecycle& jobs, MachineState& state, const LoopView& l
         state.progress = moves->targets.progress(loop.axes);
         state.remaining_s = moves->targets.remaining_s(loop.now, loop.machine);
     }
+    if (const auto* const correcting = activity.as<activity::Correcting>()) {
+        state.remaining_s = seconds_after_pause(correcting->task, jobs.path());
+        state.progress = correcting->task.progress.share();
+    }
     if (const auto* const held = activity.as<activity::Holding>()) {
         report_held(held->task, held->place, jobs.path(), state);
     }

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "core/axis/own_moves/own_pieces.hpp"
+#include "core/kinematics/following_error.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/motion/ideal.hpp"
 
@@ -55,9 +56,30 @@ std::expected<OwnTargets, Refusal> OwnTargets::plan(const KnownProgram& program,
     return targets;
 }
 
+OwnTargets OwnTargets::of_lost_steps(const LoopView& loop) {
+    OwnTargets targets;
+    targets.order_ = AxisCommandKind::Correct;
+    targets.begun_ = loop.now;
+    targets.from_ = loop.counts();
+    for (const MotorIndex m : motor_indices(loop.axes.size())) {
+        const MotorConfig& motor = loop.kinematics.motors()[m];
+        const auto& state = loop.axes.state(m);
+        const std::int64_t lost = state && state->homed ? std::abs(state->following_error_steps) : 0;
+        const std::int64_t target = state ? state->position.count() : 0;
+        targets.ends_.steps.append(target);
+        targets.begins_.steps.append(target + (state ? state->following_error_steps : 0));
+        const auto most = most_uncorrected(motor);
+        if (!most || lost <= *most) { continue; }
+        targets.motors_.insert(m);
+        const OwnMoveRequest move{lost, motor.start_velocity_mm_s};
+        targets.planned_s_ = std::max(targets.planned_s_, planned_seconds(motor, move, loop.machine));
+    }
+    return targets;
+}
+
 void OwnTargets::order(AxisOrders& orders, const Term& term) const {
     for (const MotorIndex m : motors_) {
-        AxisCommand& order = orders.give(m, AxisCommandKind::MoveOwn, term);
+        AxisCommand& order = orders.give(m, order_, term);
         order.target_steps = ends_[m];
         order.ticks = ticks_;
     }

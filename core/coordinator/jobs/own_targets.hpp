@@ -19,6 +19,10 @@ public:
     static std::expected<OwnTargets, Refusal> plan(const KnownProgram& program, std::optional<Ticks> ticks,
                                                    const LoopView& loop, BeginSteps begin_steps);
 
+    /// The motors that make up steps that their encoders show as lost, in machines that ask for that
+    /// (correct_following_error_mm). Their targets are where they rest by their counts.
+    static OwnTargets of_lost_steps(const LoopView& loop);
+
     /// The motors that move.
     MotorSet motors() const { return motors_; }
     /// Where the axes were.
@@ -31,6 +35,7 @@ public:
     double remaining_s(Tick now, const MachineConfig& machine) const;
 
 private:
+    AxisCommandKind order_ = AxisCommandKind::MoveOwn;
     MotorSet motors_;
     AxisCounts from_;
     MotorCounts begins_;

@@ -22,7 +22,7 @@ enum class MachineEvent : std::uint8_t {
     AxesReady,      // every axis is present with its device, follows this coordinator, has done its orders and rests
     AxisLacking,    // an axis or its device is missing, and nothing moves
     HomingBegins,   // axes home, group after group; again behind each move of an axis that homes by touch
-    OwnMovesBegin,  // axes move to their places, each by itself
+    OwnMovesBegin,  // axes move to their places, each by itself, or motors make up lost steps before a leg
     JogBegins,      // clients move axes while they hold their keys
     EpochBegins,    // axes move together on a path
     StopAsked,      // a hold or a stop: the axes come to rest
@@ -72,6 +72,7 @@ inline constexpr std::array kMachineTransitions{
     MachineTransition{MachinePhase::Homing, MachineEvent::Fails, MachinePhase::Fault},
     MachineTransition{MachinePhase::Homing, MachineEvent::StoodDown, MachinePhase::Standby},
     MachineTransition{MachinePhase::Running, MachineEvent::EpochBegins, MachinePhase::Running},
+    MachineTransition{MachinePhase::Running, MachineEvent::OwnMovesBegin, MachinePhase::Running},
     MachineTransition{MachinePhase::Running, MachineEvent::StopAsked, MachinePhase::Stopping},
     MachineTransition{MachinePhase::Running, MachineEvent::Pauses, MachinePhase::Paused},
     MachineTransition{MachinePhase::Running, MachineEvent::JobEnds, MachinePhase::Idle},
@@ -98,6 +99,7 @@ inline constexpr std::array kMachineTransitions{
     MachineTransition{MachinePhase::Holding, MachineEvent::Fails, MachinePhase::Fault},
     MachineTransition{MachinePhase::Holding, MachineEvent::StoodDown, MachinePhase::Standby},
     MachineTransition{MachinePhase::Paused, MachineEvent::EpochBegins, MachinePhase::Running},
+    MachineTransition{MachinePhase::Paused, MachineEvent::OwnMovesBegin, MachinePhase::Running},
     MachineTransition{MachinePhase::Paused, MachineEvent::JogBegins, MachinePhase::Jogging},
     MachineTransition{MachinePhase::Paused, MachineEvent::Pauses, MachinePhase::Paused},
     MachineTransition{MachinePhase::Paused, MachineEvent::JobEnds, MachinePhase::Idle},

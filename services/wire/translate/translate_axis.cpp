@@ -34,10 +34,11 @@ AnalogLevels analog_of(const lockstep_wire_AxisState& wire, Checks& check) {
 
 // The enumerations on the wire have the same order as those in core.
 static_assert(lockstep_wire_AXIS_FAULT == static_cast<int>(AxisPhase::Fault));
-static_assert(lockstep_wire_AXIS_TAKE_PLACE == static_cast<int>(AxisCommandKind::TakePlace));
+static_assert(lockstep_wire_AXIS_CORRECT == static_cast<int>(AxisCommandKind::Correct));
 
 lockstep_wire_AxisState to_wire(const AxisState& state) {
     lockstep_wire_AxisState wire = {.axis = state.axis,
+                                    .corrected_steps = state.corrected_steps,
                                     .identity = state.identity,
                                     .stamp = state.stamp,
                                     .epoch = state.epoch,
@@ -109,6 +110,7 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
                      .velocity = {wire.velocity},
                      .tick = {wire.tick},
                      .following_error_steps = wire.following_error_steps,
+                     .corrected_steps = wire.corrected_steps,
                      .play_steps = wire.play_steps,
                      .command_done = wire.command_done,
                      .command_fault = static_cast<FaultCode>(wire.command_fault),
@@ -147,7 +149,7 @@ FromWire<AxisCommand> from_wire(const lockstep_wire_AxisCommand& wire) {
     Checks check("axis command");
     check.within<std::uint64_t>("sequence", wire.sequence_number, 0, kMostOrders);
     check.within<std::size_t>("axis", wire.axis, 0, kMaxAxes - 1);
-    const AxisCommandKind kind = check.choice("kind", wire.kind, AxisCommandKind::TakePlace);
+    const AxisCommandKind kind = check.choice("kind", wire.kind, AxisCommandKind::Correct);
     check.far("target_steps", wire.target_steps);
     check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxWireTicks);
     check.finite("speed_mm_s", wire.speed_mm_s);

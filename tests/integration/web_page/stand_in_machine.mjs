@@ -47,7 +47,7 @@ export function encodePath(points) {
 
 const axisState = (position) => ({
   present: true, age_ms: 0, position, position_steps: Math.round(position * 80), velocity: 0, state: "Standby", homed: true, at_rest: true,
-  following_error_steps: 0, clock_error_us: 0, fault: null, unproved: null, switches: [],
+  following_error_steps: 0, corrected_steps: 0, clock_error_us: 0, fault: null, unproved: null, switches: [],
   health: { age_ms: 0, slack_ms: null, lateness_us: null, skew_us: null, setpoint_age_ms: null, loop_p99_us: 120, loop_max_us: 300, least_free_segments: 900, refused: 0 },
 });
 

@@ -35,6 +35,31 @@ TEST(PositionLog, CountsFromANewZeroUntilStepsWithItAreRecorded) {
     EXPECT_EQ(log.unrecorded_steps({.tick = Tick{1200}, .position_steps = 4}), 0);
 }
 
+/// The motor takes the place of its encoder at rest, and goes back by its own steps.
+TEST(PositionLog, CountsLostStepsThatAreMadeUp) {
+    PositionLog log;
+    const auto homed = [&](std::int64_t tick, std::int64_t steps, std::int64_t error) {
+        log.take({.tick = Tick{tick}, .position_steps = steps, .is_homed = true, .following_error_steps = error},
+                 kSteps);
+    };
+    homed(1100, 50, 0);
+    homed(1200, 50, -5);
+    EXPECT_EQ(log.corrected_steps(), 0);
+    homed(1300, 45, 0);
+    EXPECT_EQ(log.corrected_steps(), 5);
+    EXPECT_EQ(log.unrecorded_steps(kSteps), 0) << "the new zero is no motion";
+    homed(1400, 47, 0);
+    EXPECT_EQ(log.unrecorded_steps(kSteps), 2);
+}
+
+/// A hand pushes the slide and takes it back.
+TEST(PositionLog, TakesNoErrorThatVanishesForACorrection) {
+    PositionLog log;
+    log.take({.tick = Tick{1100}, .position_steps = 50, .is_homed = true, .following_error_steps = 5}, kSteps);
+    log.take({.tick = Tick{1200}, .position_steps = 50, .is_homed = true}, kSteps);
+    EXPECT_EQ(log.corrected_steps(), 0);
+}
+
 TEST(PositionLog, FindsTheStepsPerMm) {
     PositionLog log;
     EXPECT_FALSE(log.steps_per_mm());

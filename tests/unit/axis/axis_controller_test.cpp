@@ -176,6 +176,58 @@ TEST_F(OwnMovesOfAnAxis, GoUpToBothEndsOfTravelAndNoFurther) {
     EXPECT_EQ(orders_of<device::BeginRun>(loop(slot + 1)).size(), 1u);
 }
 
+class LostStepsOfAnAxis : public ControllerRig {
+protected:
+    /// Three steps, as many as the machine bears.
+    LostStepsOfAnAxis() {
+        owned(10, 20);
+        device.encoder_count = -3;
+        loop(21);
+    }
+};
+
+TEST_F(LostStepsOfAnAxis, AreMadeUpFromWhereTheEncoderShowsTheMotor) {
+    command(AxisCommandKind::Correct, 0);
+    const AxisOutputs out = loop(22);
+    EXPECT_TRUE(has_notice(out, AxisNotice::Kind::StepsCorrected));
+    EXPECT_EQ(state.position.count(), -3);
+    EXPECT_EQ(state.following_error_steps, 0);
+    EXPECT_EQ(state.corrected_steps, 3U);
+    EXPECT_TRUE(state.homed);
+    const auto frames_loaded = orders_of<device::LoadFrame>(out);
+    ASSERT_FALSE(frames_loaded.empty());
+    EXPECT_EQ(frames_loaded.front().track.from, Position{}) << "by the device's count";
+    Position end = frames_loaded.front().track.from;
+    for (const device::LoadFrame& frame : frames_loaded) {
+        for (const Piece& piece : frame.track.body) { end = end + piece.covered(); }
+    }
+    EXPECT_EQ(end.count(), 3);
+}
+
+TEST_F(LostStepsOfAnAxis, AreNotMadeUpWhereTheOwnerDoesNotKnowTheAxis) {
+    command(AxisCommandKind::Correct, 1);
+    EXPECT_TRUE(has_notice(loop(22), AxisNotice::Kind::CommandRefused, FaultCode::PositionMismatch));
+    EXPECT_EQ(state.following_error_steps, -3);
+    EXPECT_EQ(state.position.count(), 0);
+}
+
+TEST_F(LostStepsOfAnAxis, NeedNoMotionIfNoneIsLostAnyMore) {
+    device.encoder_count = 0;
+    command(AxisCommandKind::Correct, 0);
+    const AxisOutputs out = loop(22);
+    EXPECT_TRUE(out.orders.empty());
+    EXPECT_EQ(state.command_done, 1U);
+    EXPECT_EQ(state.command_fault, FaultCode::None);
+}
+
+TEST_F(LostStepsOfAnAxis, AreNotMadeUpInAFault) {
+    command(AxisCommandKind::StopNow);
+    loop(22);
+    command(AxisCommandKind::Correct, 0);
+    EXPECT_TRUE(has_notice(loop(23), AxisNotice::Kind::CommandRefused, FaultCode::InFault));
+    EXPECT_EQ(state.corrected_steps, 0U);
+}
+
 class AssumedPlace : public ControllerRig {};
 
 TEST_F(AssumedPlace, IsNoHomeUntilItIsTakenForTrue) {

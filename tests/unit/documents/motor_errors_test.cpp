@@ -63,6 +63,22 @@ INSTANTIATE_TEST_SUITE_P(
                      "max_following_error_mm is 0.02; it must be at least 0.025, a step of the motor"},
         MotorMistake{machine(kSteps, "steps_per_mm: 80 motor { name: \"Y1\" max_following_error_mm: -1 }"),
                      "max_following_error_mm is -1"},
+        MotorMistake{
+            machine("steps_per_mm: 80 correct_following_error_mm: 0.012", kSteps),
+            "correct_following_error_mm is 0.012; it must be at least 0.0125, a step of motor X, and less than "
+            "0.0375"},
+        MotorMistake{machine("steps_per_mm: 80 correct_following_error_mm: nan", kSteps),
+                     "correct_following_error_mm is nan"},
+        MotorMistake{machine("steps_per_mm: 80 correct_following_error_mm: 0.0375", kSteps),
+                     "and less than 0.0375, where the motor is in fault: see max_following_error_mm"},
+        MotorMistake{machine("steps_per_mm: 80 max_following_error_mm: 0.5 correct_following_error_mm: 0.51", kSteps),
+                     "correct_following_error_mm is 0.51; it must be at least 0.0125"},
+        MotorMistake{machine(kSteps,
+                             "steps_per_mm: 80 max_skew_mm: 3 motor { name: \"Y1\" } motor { name: \"Y2\" "
+                             "correct_following_error_mm: 1e9 }"),
+                     "a step of motor Y2"},
+        MotorMistake{machine("steps_per_mm: 80 correct_following_error_mm: 0.02 backlash { mm: 0.1 }", kSteps),
+                     "asks motor X to make up lost steps, but it has backlash"},
         MotorMistake{machine(kSteps, std::string(kPair) + " homing { pulloff_mm: 4 }"), "max_skew_mm is 3, below"},
         MotorMistake{machine(kSteps, std::string(kPair) + " homing { park_mm: 50 }"), "max_skew_mm is 3, below 50"},
         MotorMistake{machine(kSteps,
@@ -147,15 +163,19 @@ TEST(Motors, OfOneAxisParkBesideTheirSwitches) {
 }
 
 TEST(FollowingErrors, OfMotorsAreTheirOwnOrThatOfTheirAxis) {
-    const auto read = parse_machine(
-        machine("steps_per_mm: 80 max_following_error_mm: 0.5",
-                "steps_per_mm: 80 max_skew_mm: 3 max_following_error_mm: 1 motor { name: \"Y1\" } motor { name: "
-                "\"Y2\" max_following_error_mm: 2 }"));
+    const auto read =
+        parse_machine(machine("steps_per_mm: 80 max_following_error_mm: 0.5 correct_following_error_mm: 0.0125",
+                              "steps_per_mm: 80 max_skew_mm: 3 max_following_error_mm: 1 correct_following_error_mm: "
+                              "0.1 motor { name: \"Y1\" } motor { name: "
+                              "\"Y2\" max_following_error_mm: 2 correct_following_error_mm: 0.2 }"));
     ASSERT_TRUE(read) << to_text("m", read.error());
     const std::vector<MotorConfig> motors = motors_of(*read);
     EXPECT_EQ(motors[0].max_following_error_mm, 0.5);
     EXPECT_EQ(motors[1].max_following_error_mm, 1);
     EXPECT_EQ(motors[2].max_following_error_mm, 2);
+    EXPECT_EQ(motors[0].correct_following_error_mm, 0.0125);
+    EXPECT_EQ(motors[1].correct_following_error_mm, 0.1);
+    EXPECT_EQ(motors[2].correct_following_error_mm, 0.2);
     const auto again = parse_machine(machine_text(*read));
     ASSERT_TRUE(again) << to_text("m", again.error());
     EXPECT_EQ(config_hash(*again), config_hash(*read));

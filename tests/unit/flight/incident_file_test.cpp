@@ -84,7 +84,7 @@ TEST_F(IncidentFile, ReportsAnImpossibleDirectoryWithTheRemedy) {
 TEST_F(IncidentFile, EveryKindOfEventComesBack) {
     MachineConfig machine{.name = "mill"};
     for (const char* name : {"X", "Y"}) { machine.axes.push_back({.name = name}); }
-    for (int kind = 0; kind <= static_cast<int>(FlightKind::Touched); ++kind) {
+    for (int kind = 0; kind <= static_cast<int>(FlightKind::StepsCorrected); ++kind) {
         const NumberedEvent event{3,
                                   {.tick = Tick{12},
                                    .kind = static_cast<FlightKind>(kind),

@@ -56,10 +56,12 @@ TEST(MotorsDocument, HasThePlaceTheSwitchesAndTheFollowingErrorOfEach) {
     state.position = Position::steps(800);
     state.switches = {.limit_max = true, .home = true};
     state.following_error_steps = 3;
+    state.corrected_steps = 20;
     const Json motors = of_gantry(snapshot)["motors"];
     EXPECT_EQ(motors["Y2"]["position"], 10.0);
     EXPECT_EQ(motors["Y2"]["switches"], Json::array({"limit_max", "home"}));
     EXPECT_EQ(motors["Y2"]["following_error_steps"], 3);
+    EXPECT_EQ(motors["Y2"]["corrected_steps"], 20);
     EXPECT_EQ(motors["Y1"]["switches"], Json::array());
 }
 

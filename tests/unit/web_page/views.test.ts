@@ -240,7 +240,7 @@ describe("outputs", () => {
 });
 
 describe("a motor", () => {
-  const rest: AxisState = { present: true, state: "Standby", homed: true, following_error_steps: 0, fault: null, unproved: null, switches: [] };
+  const rest: AxisState = { present: true, state: "Standby", homed: true, following_error_steps: 0, corrected_steps: 0, fault: null, unproved: null, switches: [] };
   const fault = { number: 103, code: "limit-hit", motor: "Y2", cause: "a limit switch closed", remedy: "" };
 
   test("has its closed switches in words", () => {
@@ -251,6 +251,10 @@ describe("a motor", () => {
   test("is named in the trouble of its axis", () => {
     expect(troubleText({ ...rest, fault, following_error_steps: 3 }, en)).toBe("Motor Y2: limit-hit: a limit switch closed · Following error: 3 steps");
     expect(troubleText(rest, en)).toBe("");
+  });
+
+  test("says how many lost steps it has made up", () => {
+    expect(troubleText({ ...rest, corrected_steps: 20 }, en)).toBe("Lost steps made up: 20");
   });
 
   test("that is not received says so", () => {

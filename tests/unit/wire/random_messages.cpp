@@ -38,6 +38,7 @@ AxisState RandomMessages::axis_state() {
             .velocity = {rate()},
             .tick = {far()},
             .following_error_steps = far(),
+            .corrected_steps = static_cast<std::uint32_t>(bits()),
             .play_steps = far() % 1000,
             .command_done = bits() >> 2,
             .command_fault = fault(),

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "tests/simulation/simtest/draw/draw_bounces.hpp"
+#include "tests/simulation/simtest/draw/draw_encoders.hpp"
 #include "tests/simulation/simtest/draw/draw_fault.hpp"
 #include "tests/simulation/simtest/draw/draw_inputs.hpp"
 #include "tests/simulation/simtest/draw/draw_jogs.hpp"
@@ -284,6 +285,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     }
     if (kind.touches && !kind.deltas) { scenario.machine = with_touches(seed, std::move(scenario.machine)); }
     if (kind.backlash && !kind.screws) { scenario.machine = with_backlash(seed, std::move(scenario.machine)); }
+    if (kind.encoders && !kind.backlash) { scenario.machine = with_encoders(seed, std::move(scenario.machine)); }
     scenario.network = draw_network(draw, faults, scenario.machine.slot_ticks());
     if (faults.clock) {
         give_clocks(draw, scenario);
@@ -320,6 +322,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (kind.bounces) { give_bounces(seed, scenario); }
     if (kind.small_rings) { give_rings(seed, scenario); }
     if (kind.jogs) { give_jogs(seed, with_plant(faults, asked), scenario); }
+    if (kind.encoders && !kind.backlash) { give_slips(seed, scenario); }
     return scenario;
 }
 

@@ -76,6 +76,7 @@ struct MachineKind {
     bool screws = false;              // motors correct errors of screws (draw_screws.hpp); not of deltas
     bool backlash = false;            // motors have a play (draw_backlash.hpp); not with screws or deltas
     bool touches = false;             // axes home by inputs (draw_touches.hpp); not of deltas
+    bool encoders = false;            // lost steps are made up (draw_encoders.hpp); not with backlash
     bool jogs = false;                // axes are jogged between programs (draw_jogs.hpp)
     bool inputs = false;              // with an emergency stop and a door (draw_inputs.hpp)
     bool probes = false;              // programs probe (draw_probes.hpp)
@@ -103,6 +104,8 @@ inline constexpr auto kMachineFlags = std::to_array<MachineKind::Flag>(
      {"--deltas", &MachineKind::deltas, "machines whose first three axes are those of a delta"},
      {"--screws", &MachineKind::screws, "machines whose motors correct errors of their screws"},
      {"--backlash", &MachineKind::backlash, "machines whose motors have backlash, which they take up where they turn"},
+     {"--encoders", &MachineKind::encoders,
+      "machines whose motors make up lost steps at rest: slides are pushed, in jobs and between them"},
      {"--touches", &MachineKind::touches, "machines with axes that home by the touch of an input, at any device"},
      {"--inputs", &MachineKind::inputs, "machines with an emergency stop and a door at inputs of devices"},
      {"--probes", &MachineKind::probes,
@@ -154,6 +157,12 @@ struct PlannedFault {
     bool is_of_frame() const { return static_cast<std::size_t>(edge) < kFrameEdges; }
 };
 
+/// A hand pushes a motor's slide by less than the machine bears.
+struct Slip {
+    std::size_t motor = 0;
+    std::int64_t steps = 0;
+};
+
 /// An interruption of a job in motion.
 struct Interrupt {
     enum class Kind : std::uint8_t {
@@ -165,7 +174,8 @@ struct Interrupt {
         Override,
         StopInput,  // a person presses the emergency stop at a device, tries a reset, and releases it
         Door,       // a door opens, and closes after the hold
-        Touch       // the probe touches, by one of its inputs or by two, until the job ends
+        Touch,      // the probe touches, by one of its inputs or by two, until the job ends
+        Slip        // a hand pushes a slide
     };
     Kind kind = Kind::HoldAndResume;
     double after_s = 0;  // after the motion began or continued
@@ -174,6 +184,7 @@ struct Interrupt {
     Overrides overrides;
     std::size_t touched = 0;             // Touch: the input that touches first, of those of the probe
     std::optional<double> next_after_s;  // Touch: another one touches so much later
+    simtest::Slip slip;
 };
 
 /// A number of blocks of a program, sent `after_s` after the previous part was taken.
@@ -208,6 +219,7 @@ struct Task {
     std::vector<PlannedFault> faults;   // in the order in which they are placed
     std::vector<SentPart> parts = {};   // empty: the program is sent whole, before it runs
     std::vector<JogSession> jogs = {};  // before the program
+    std::vector<Slip> slips = {};       // at rest, before the program
 };
 
 /// Stop or EmergencyStop, `after_s` after the homing began.

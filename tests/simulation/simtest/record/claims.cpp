@@ -34,10 +34,12 @@ void ClaimCheck::on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, Axis
     // A motor that moves several axes adds up what the switches of these axes are off.
     const double kHomedWithin = is_by_touch ? 4 : 2;
     const double slide = vm_.device(axis).plant().position_mm() * motors_[axis].steps_per_mm;
-    if (state.homed && std::abs(slide - zero_[axis] - static_cast<double>(claimed - state.play_steps)) > kHomedWithin) {
+    const std::int64_t by_encoder = claimed + state.following_error_steps;
+    const double is_off = slide - zero_[axis] - static_cast<double>(by_encoder - state.play_steps);
+    if (state.homed && std::abs(is_off) > kHomedWithin) {
         object(axis, now,
-               "it reports that it is homed at step " + std::to_string(claimed) + ", its slide is at step " +
-                   std::to_string(slide));
+               "it reports that it is homed at step " + std::to_string(by_encoder) +
+                   " by its encoder, its slide is at step " + std::to_string(slide));
     }
 }
 

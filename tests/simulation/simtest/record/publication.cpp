@@ -77,6 +77,7 @@ struct Hash {
            s.refused_frames, s.clock_error, s.term, s.hears_owner, s.unproved, s.switches);
         add_if(s.touch.has_value(), s.touch);
         add_if(s.play_steps != 0, s.play_steps);
+        add_if(s.corrected_steps != 0, s.corrected_steps);
         add_if(s.outputs != 0 || s.pulses_left != 0 || s.analog != AnalogLevels{}, s.outputs, s.pulses_left, s.analog);
     }
     void add(const EpochTouch& touch) { of(touch.epoch, touch.tick); }

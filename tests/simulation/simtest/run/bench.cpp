@@ -64,7 +64,8 @@ Bench::Bench(const Scenario& scenario, Played& played)
       claims_(vm_, played.recording),
       coverage_(scenario.machine, played.coverage),
       outage_s_(outage_seconds(scenario)),
-      by_hand_(kinematics_.motors().size()) {
+      by_hand_(kinematics_.motors().size()),
+      slipped_(kinematics_.motors().size()) {
     const std::initializer_list<VirtualObserver*> all{&recorder_, &watch_, &placer_, &claims_, &coverage_};
     for (VirtualObserver* observer : all) { vm_.observe(*observer); }
 }
@@ -91,6 +92,12 @@ void Bench::move_by_hand(std::size_t motor, std::int64_t steps) {
     vm_.device(motor).plant().push(steps);
     by_hand_[motor] += steps;
     played_.recording.was_moved_by_hand = played_.recording.was_moved_by_hand || steps != 0;
+}
+
+void Bench::slip(const Slip& slip) {
+    vm_.device(slip.motor).plant().push(slip.steps);
+    by_hand_[slip.motor] += slip.steps;
+    slipped_[slip.motor] += slip.steps;
 }
 
 void Bench::advance() {

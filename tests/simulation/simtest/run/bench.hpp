@@ -61,6 +61,12 @@ public:
     /// The steps by which a motor's slide was moved by hand.
     std::int64_t moved_by_hand(std::size_t motor) const { return by_hand_[motor]; }
 
+    /// A hand pushes a slide by less than the machine bears.
+    void slip(const Slip& slip);
+    /// The steps by which a motor is ahead of its count, because of such pushes since its homing or its correction.
+    std::int64_t slipped(std::size_t motor) const { return slipped_[motor]; }
+    void forget_slips(std::size_t motor) { slipped_[motor] = 0; }
+
     bool asks_in_fault() const { return scenario_.asks_in_fault; }
     const Watch& watch() const { return watch_; }
     const MachineConfig& machine() const { return scenario_.machine; }
@@ -107,6 +113,7 @@ private:
     std::uint64_t programs_ = 0;
     std::optional<StreamSender> stream_;
     std::vector<std::int64_t> by_hand_;  // steps, of each motor
+    std::vector<std::int64_t> slipped_;
     bool over_ = false;
 };
 

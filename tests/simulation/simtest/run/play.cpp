@@ -2,8 +2,9 @@
 
 #include <cmath>
 
-#include "core/axis/device/position_claim.hpp"
+#include "core/kinematics/following_error.hpp"
 #include "tests/simulation/simtest/record/explain.hpp"
+#include "tests/simulation/simtest/run/play_correction.hpp"
 #include "tests/simulation/simtest/run/play_job.hpp"
 #include "tests/simulation/simtest/run/play_jogs.hpp"
 
@@ -37,7 +38,7 @@ void check_slides(Bench& bench, const Counts& at) {
         const bool was_pushed = may_be_stopped(bench.recording(), i, bench.recording().began, bench.vm().now());
         const bool in_place = !row_of(motor.homing.way).searches;
         if (in_place && was_pushed) { continue; }
-        const double mm = static_cast<double>(at[i]) / motor.steps_per_mm;
+        const double mm = static_cast<double>(at[i] + bench.slipped(i)) / motor.steps_per_mm;
         const double is = bench.vm().device(i).plant().position_mm();
         // In place: as exactly as it was put there.
         const double most =
@@ -91,6 +92,7 @@ void play_all(const Scenario& scenario, Bench& bench) {
         if (!bench.over()) { JobPlayer(bench, task, at).play(); }
         bench.plan({});
         make_ready(bench, at);
+        if (corrects(bench.machine())) { check_slides(bench, at); }
     }
     if (!bench.over()) { check_places(bench, at); }
 }

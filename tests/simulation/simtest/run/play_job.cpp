@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/axis/device/position_claim.hpp"
+#include "core/kinematics/following_error.hpp"
 #include "tests/simulation/simtest/draw/draw_bounces.hpp"
 #include "tests/simulation/simtest/draw/draw_inputs.hpp"
 #include "tests/simulation/simtest/record/motor_course.hpp"
+#include "tests/simulation/simtest/run/homing_time.hpp"
+#include "tests/simulation/simtest/run/play_correction.hpp"
 #include "tests/simulation/simtest/run/probe_record.hpp"
 
 namespace lockstep::simtest {
@@ -45,33 +47,6 @@ Program starting_at(const Bench& bench, const Counts& motors, Program program) {
         program.start_mm.push_back(known ? static_cast<double>(at[i]) / axis->steps_per_mm : 0);
     }
     return program;
-}
-
-/// An upper bound of the time in which an axis, or a motor by itself, homes.
-template <typename Part>
-double homing_seconds(const Part& part, bool any_is_curved) {
-    constexpr int kSearches = 4;
-    const HomingConfig& h = part.homing;
-    const double travel = part.position_max_mm - part.position_min_mm + 2 * part.plant.travel_margin_mm;
-    const double search = travel / h.search_velocity_mm_s + 20 * h.pulloff_mm / h.search_velocity_mm_s +
-                          2 * h.pulloff_mm / h.latch_velocity_mm_s;
-    const double to_park_mm_s = any_is_curved ? h.search_velocity_mm_s : part.start_velocity_mm_s;
-    return kSearches * search + 2 * travel / to_park_mm_s;
-}
-
-/// An upper bound of the time of a homing that has to repeat the search for a switch. Axes that home by touch do so one
-/// after the other, and each of their moves begins and ends a run of frames.
-double homing_seconds(const Bench& bench) {
-    constexpr double kMovesByTouch = 20;
-    double seconds = bench.protocol_seconds();
-    for (const MotorConfig& motor : bench.kinematics().motors()) {
-        if (row_of(motor.homing.way).searches) { seconds += homing_seconds(motor, bench.map().any_is_curved()); }
-    }
-    for (const AxisConfig& axis : bench.machine().axes) {
-        if (!row_of(axis.homing.way).runs_programs) { continue; }
-        seconds += homing_seconds(axis, bench.map().any_is_curved()) + kMovesByTouch * bench.protocol_seconds();
-    }
-    return seconds;
 }
 
 void end_record(Bench& bench, JobRecord& job) {
@@ -232,6 +207,7 @@ void play_homing(Bench& bench, Counts& at, const std::optional<HomingStop>& stop
         const bool in_place = !searches && bench.watch().motors()[i].homed;
         if (job.end_step[i] == job.first_step[i] && !in_place) { continue; }  // it was not reached
         at[i] = place_after_homing(bench, i, job.outcome);
+        bench.forget_slips(i);
     }
     end_record(bench, job);
 }
@@ -290,6 +266,8 @@ bool JobPlayer::is_at(const Counts& axes) const {
 }
 
 bool JobPlayer::start() {
+    for (const Slip& slip : task_.slips) { bench_.slip(slip); }
+    if (!task_.slips.empty()) { bench_.wait_slots(bench_.lossy() ? 40 : 6); }
     if (const auto& before = bench_.vm().state()->probe) { probed_before_ = before->job; }
     const Counts axes = bench_.axes_at(at_);
     if (!is_at(axes)) { bench_.object("place", "no place of the axes belongs to those of the motors"); }
@@ -303,6 +281,7 @@ bool JobPlayer::start() {
     if (reply == nullptr) { return false; }
     begun_ = reply->status == ReplyStatus::Accepted;
     if (!begun_) { refused("refusal", *reply); }
+    if (begun_) { play_correction(bench_, job_, at_); }
     moving_since_ = bench_.vm().now();
     return !bench_.over();
 }
@@ -344,6 +323,7 @@ void JobPlayer::interrupt(const Interrupt& interrupt) {
         case Interrupt::Kind::StopInput: return press_stop();
         case Interrupt::Kind::Door: return open_door(interrupt);
         case Interrupt::Kind::Touch: return touch(interrupt);
+        case Interrupt::Kind::Slip: return bench_.slip(interrupt.slip);
     }
 }
 

@@ -31,6 +31,16 @@ TEST(EncoderWatch, TakesAnEncoderThatStandsOrLagsForLostSteps) {
     EXPECT_FALSE(after(at(100, 40, false), at(120, 60, true)).counts_back(16));
 }
 
+/// By twice the way of the pulses so far, so that the encoder is where one that counts back would be.
+TEST(EncoderWatch, TakesAPushBackInMotionForAPush) {
+    EncoderWatch watch = after(at(100, 40, false), at(102, 42, true));
+    watch.look(at(120, 20, true), false);
+    EXPECT_FALSE(watch.counts_back(2));
+    watch.look(at(120, 20, false), false);
+    watch.look(at(140, 0, true), false);
+    EXPECT_TRUE(watch.counts_back(16)) << "an earlier motion does not count";
+}
+
 TEST(EncoderWatch, CountsFromTheLastRestAndFromANewDevice) {
     EncoderWatch watch;
     watch.look(at(0, 0, false), false);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/kinematics/following_error.hpp"
 #include "core/kinematics/motors.hpp"
 
 namespace lockstep {

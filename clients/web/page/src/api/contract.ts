@@ -250,6 +250,7 @@ export interface AxisState {
   homed?: Maybe<boolean>;
   at_rest?: Maybe<boolean>;
   following_error_steps?: Maybe<number>;
+  corrected_steps?: Maybe<number>;
   clock_error_us?: Maybe<number>;
   fault?: Maybe<Fault>;
   unproved?: Maybe<Fault>;

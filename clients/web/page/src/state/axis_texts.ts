@@ -14,12 +14,13 @@ export function phaseLook({ present, state }: Pick<AxisState, "present" | "state
 }
 
 /** Empty if nothing is wrong. */
-export function troubleText(state: Pick<AxisState, "fault" | "unproved" | "homed" | "following_error_steps">, { axes, alarms }: Pick<Texts, "axes" | "alarms">): string {
-  const { fault, unproved, homed, following_error_steps } = state;
+export function troubleText(state: Pick<AxisState, "fault" | "unproved" | "homed" | "following_error_steps" | "corrected_steps">, { axes, alarms }: Pick<Texts, "axes" | "alarms">): string {
+  const { fault, unproved, homed, following_error_steps, corrected_steps } = state;
   const motor = fault?.motor ? `${fill(alarms.motor, { motor: fault.motor })}: ` : "";
   return [
     fault ? `${motor}${fault.code}: ${fault.cause}` : "",
     unproved && !homed ? fill(axes.unproved, { cause: unproved.cause }) : "",
     following_error_steps ? fill(axes.following, { steps: following_error_steps }) : "",
+    corrected_steps ? fill(axes.corrected, { steps: corrected_steps }) : "",
   ].filter((line) => line !== "").join(" · ");
 }

@@ -50,7 +50,7 @@ export const de: Texts = {
   axes: {
     title: "Achsen", machine: "Maschine", work: "Werkstück {system}", coordinates: "Koordinaten", homed: "Referenziert",
     notHomed: "Nicht referenziert", missing: "Nicht empfangen", unproved: "Position nicht bestätigt: {cause}", age: "Alter", slack: "Vorlauf", late: "Verzug",
-    skew: "Versatz", clock: "Uhr", following: "Schleppfehler: {steps} Schritte", now: "< 1 s",
+    skew: "Versatz", clock: "Uhr", following: "Schleppfehler: {steps} Schritte", corrected: "Verlorene Schritte nachgeholt: {steps}", now: "< 1 s",
     hints: {
       age: "Alter der Werte dieser Achse", slack: "Kürzeste Zeit von der Ankunft einer Vorgabe bis zu ihrem Beginn, ms",
       late: "Größte Abweichung eines Schritts von seiner befohlenen Zeit, µs", skew: "Größter Versatz zwischen Schritten zweier Achsen, µs",

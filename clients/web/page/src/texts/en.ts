@@ -49,7 +49,7 @@ export const en = {
   axes: {
     title: "Axes", machine: "Machine", work: "Work {system}", coordinates: "Coordinates", homed: "Homed",
     notHomed: "Not homed", missing: "Not received", unproved: "Position not confirmed: {cause}", age: "Age", slack: "Slack", late: "Late",
-    skew: "Skew", clock: "Clock", following: "Following error: {steps} steps", now: "< 1 s",
+    skew: "Skew", clock: "Clock", following: "Following error: {steps} steps", corrected: "Lost steps made up: {steps}", now: "< 1 s",
     hints: {
       age: "Age of this axis's values", slack: "Least time from a setpoint's arrival to its start, ms",
       late: "Largest deviation of a step from its commanded time, µs", skew: "Largest skew between steps of two axes, µs",
