@@ -19,7 +19,6 @@ struct PhaseOf {
     MachinePhase operator()(const activity::Idle&) const { return MachinePhase::Idle; }
     MachinePhase operator()(const activity::Homing& homing) const { return of_motion(homing, MachinePhase::Homing); }
     MachinePhase operator()(const activity::OwnMoves& moves) const { return of_motion(moves, MachinePhase::Running); }
-    MachinePhase operator()(const activity::Correcting& moves) const { return of_motion(moves, MachinePhase::Running); }
     MachinePhase operator()(const activity::Jogging& jog) const { return of_motion(jog, MachinePhase::Jogging); }
     MachinePhase operator()(const activity::OnPath& path) const {
         if (path.task.job.kind == JobKind::Home) { return of_motion(path, MachinePhase::Homing); }

@@ -73,11 +73,7 @@ struct Homing : Motion {
 struct OwnMoves : Motion {
     MachineJob job;
     OwnTargets targets;
-};
-/// Motors make up lost steps, each by itself, before a job goes on to its next leg.
-struct Correcting : Motion {
-    PathTask task;
-    OwnTargets targets;
+    std::optional<Paused> pause = {};  // the job that goes on, after these moves have made up lost steps
 };
 /// Clients jog axes.
 struct Jogging : Motion {
@@ -95,9 +91,9 @@ struct OnPath : Motion {
 
 }  // namespace activity
 
-using Activity = std::variant<activity::Standby, activity::Waiting, activity::Idle, activity::Homing,
-                              activity::OwnMoves, activity::Correcting, activity::Jogging, activity::OnPath,
-                              activity::Paused, activity::Holding, activity::InFault>;
+using Activity =
+    std::variant<activity::Standby, activity::Waiting, activity::Idle, activity::Homing, activity::OwnMoves,
+                 activity::Jogging, activity::OnPath, activity::Paused, activity::Holding, activity::InFault>;
 
 /// Holds the activity. Every change names its event, and must be a row of kMachineTransitions.
 class MachineActivity {

@@ -118,47 +118,18 @@ void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& l
     if (homing) { loop.out.jobs.push_back(job_events::ended(homing->job, JobOutcome::Failed)); }
 }
 
-/// Why motors that were ordered to a place have failed. `targets`: where they must be, if the job was not stopped.
-std::optional<MachineFault> fault_of_orders(MotorSet motors, const OwnTargets* targets, Intent intent,
-                                            const LoopView& loop) {
+/// The motors that the job ordered to a place. `targets`: where they must be, if the job was not stopped.
+void settle_alone(MotorSet motors, const OwnTargets* targets, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    const Intent intent = jobs.activity().intent();
+    if (intent == Intent::Abort) { return jobs.fail_at_rest(jobs.activity().fault(), loop); }
     for (const MotorIndex m : motors) {
         if (!loop.axes.state(m)) { continue; }
         const AxisState& state = *loop.axes.state(m);
-        if (state.command_fault != FaultCode::None) { return MachineFault{state.command_fault, m}; }
+        if (state.command_fault != FaultCode::None) { return jobs.fail({state.command_fault, m}, loop); }
         if (targets == nullptr || intent != Intent::GoOn) { continue; }
-        if (state.position.count() != targets->target(m)) { return MachineFault{FaultCode::PositionMismatch, m}; }
+        if (state.position.count() != targets->target(m)) { return jobs.fail({FaultCode::PositionMismatch, m}, loop); }
     }
-    return std::nullopt;
-}
-
-/// Returns whether the orders, and the job with them, have failed.
-bool fail_with_orders(MotorSet motors, const OwnTargets* targets, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    const Intent intent = jobs.activity().intent();
-    if (intent == Intent::Abort) {
-        jobs.fail_at_rest(jobs.activity().fault(), loop);
-        return true;
-    }
-    const auto fault = fault_of_orders(motors, targets, intent, loop);
-    if (fault) { jobs.fail(*fault, loop); }
-    return fault.has_value();
-}
-
-/// The motors that the job ordered to a place.
-void settle_alone(MotorSet motors, const OwnTargets* targets, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    if (fail_with_orders(motors, targets, jobs, loop)) { return; }
-    jobs.end(jobs.activity().intent() == Intent::Stop ? JobOutcome::Stopped : JobOutcome::Done, loop);
-}
-
-/// The job goes on, on whole steps. After a hold its motors may rest on the way to where it goes on.
-void settle_correction(const activity::Correcting& correcting, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    if (fail_with_orders(correcting.targets.motors(), &correcting.targets, jobs, loop)) { return; }
-    if (correcting.intent == Intent::Stop) { return jobs.end(JobOutcome::Stopped, loop); }
-    PathTask task = correcting.task;
-    if (correcting.intent == Intent::Hold) {
-        return jobs.pause({std::move(task), {.reason = PauseReason::Hold}, {}}, loop);
-    }
-    const PathNext next = jobs.path().begin_leg(task, loop, loop.out.events);
-    jobs.follow(std::move(task), next, {}, loop);
+    jobs.end(intent == Intent::GoOn ? JobOutcome::Done : JobOutcome::Stopped, loop);
 }
 
 bool are_orders_done(const CoordinatorLoop& loop) {
@@ -184,9 +155,6 @@ void advance_job(JobLifecycle& jobs, CoordinatorLoop& loop) {
     if (!are_orders_done(loop)) { return; }
     if (homing != nullptr) {
         return settle_alone(loop.kinematics.motors_of_axes(homing->sequence.axes()), nullptr, jobs, loop);
-    }
-    if (const auto* const correcting = activity.as<activity::Correcting>()) {
-        return settle_correction(*correcting, jobs, loop);
     }
     if (const auto* const moves = activity.as<activity::OwnMoves>()) {
         return settle_alone(moves->targets.motors(), &moves->targets, jobs, loop);

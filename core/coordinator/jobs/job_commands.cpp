@@ -149,16 +149,17 @@ CommandResult press_on_path(const Command& command, activity::OnPath& path, JobL
     return {};
 }
 
-/// Homing and a jog cannot continue after a hold, so a hold ends them as a stop does. A job whose motors make up lost
-/// steps is paused before its next leg.
+/// Homing and a jog cannot continue after a hold, so a hold ends them as a stop does. Where motors make up lost steps,
+/// the job that would go on pauses.
 CommandResult interrupt_alone(Intent intent, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    if (intent == Intent::Hold && jobs.activity().is<activity::OwnMoves>()) {
+    const bool is_own_move = jobs.activity().is<activity::OwnMoves>();
+    const bool is_in_pause = jobs.activity().pause() != nullptr;
+    if (intent == Intent::Hold && is_own_move && !is_in_pause) {
         return refuse(FaultCode::Busy,
                       "moves of axes on their own cannot be held and resumed; stop them: lockstep stop");
     }
     halt_axes(jobs.activity(), loop);
-    const bool may_pause = jobs.activity().is<activity::Correcting>();
-    jobs.activity().bring_to_rest(may_pause ? intent : Intent::Stop, loop.out);
+    jobs.activity().bring_to_rest(is_own_move ? intent : Intent::Stop, loop.out);
     return {};
 }
 
@@ -229,7 +230,7 @@ CommandResult run(const Command& command, JobLifecycle& jobs, CoordinatorLoop& l
     const JobKind kind = command.kind == CommandKind::Move ? JobKind::Move : JobKind::Run;
     PathTask task{.job = jobs.begin(kind, command, *program, start, loop), .from = start};
     path.events().begin();
-    jobs.go_on(std::move(task), loop);
+    jobs.go_on({std::move(task), {}, {}}, loop);
     return {};
 }
 
@@ -354,7 +355,7 @@ CommandResult resume(const Command& command, JobLifecycle& jobs, CoordinatorLoop
     if (auto placed = check_place(pause.task.from, loop); !placed) {
         return command.returns ? begin_return(pause, jobs, loop) : placed;
     }
-    pause.why.wait ? jobs.pause(std::move(pause), loop) : jobs.go_on(std::move(pause.task), loop);
+    pause.why.wait ? jobs.pause(std::move(pause), loop) : jobs.go_on(std::move(pause), loop);
     return {};
 }
 
@@ -413,7 +414,7 @@ void go_on_at_input(JobLifecycle& jobs, CoordinatorLoop& loop) {
     switch (paused.watch->look(can_go_on ? is_closed : std::nullopt, loop.now)) {
         case InputWatch::Result::Waits: return;
         case InputWatch::Result::TimedOut: return wait_for_person(PauseReason::InputTimeout, jobs.activity(), loop);
-        case InputWatch::Result::IsMet: return jobs.go_on(std::move(paused.task), loop);
+        case InputWatch::Result::IsMet: return jobs.go_on(std::move(paused), loop);
     }
 }
 
@@ -425,7 +426,8 @@ void hold_for_inputs(JobLifecycle& jobs, CoordinatorLoop& loop) {
     const bool goes_on = activity.in_motion() && activity.intent() == Intent::GoOn;
     if (!goes_on && !waits_for_input(activity)) { return; }
     loop.notice({CoordinatorNotice::Kind::HeldByInput, FaultCode::None, *input});
-    (void)interrupt(activity.is<activity::OwnMoves>() ? Intent::Stop : Intent::Hold, jobs, loop);
+    const bool cannot_be_held = activity.is<activity::OwnMoves>() && activity.pause() == nullptr;
+    (void)interrupt(cannot_be_held ? Intent::Stop : Intent::Hold, jobs, loop);
 }
 
 void lose_client(Identity client, JobLifecycle& jobs, CoordinatorLoop& loop) {
@@ -433,8 +435,8 @@ void lose_client(Identity client, JobLifecycle& jobs, CoordinatorLoop& loop) {
     const MachineJob* const job = activity.job();
     if (job == nullptr || job->client != client) { return; }
     leave_to_itself(client, jobs);
-    const bool is_of_program = activity.is<activity::OnPath>() || activity.is<activity::Correcting>();
-    const bool goes_on = is_of_program && activity.intent() == Intent::GoOn;
+    const bool is_correcting = activity.is<activity::OwnMoves>() && activity.pause() != nullptr;
+    const bool goes_on = (activity.is<activity::OnPath>() || is_correcting) && activity.intent() == Intent::GoOn;
     if (!goes_on && !waits_for_input(activity)) { return; }
     const bool is_held = loop.machine.unattended_job == UnattendedJob::IsHeld;
     const std::uint64_t number = job->number;

@@ -11,6 +11,18 @@ namespace {
 /// The number of a notice; 0 without a line.
 std::uint64_t number_of(std::optional<std::int32_t> line) { return static_cast<std::uint64_t>(line.value_or(0)); }
 
+/// Records the begin of a job in the pause of another one.
+MachineJob begin_aside(const MachineJob& paused, JobKind kind, std::shared_ptr<const KnownProgram> program,
+                       const AxisCounts& start, JobCount& count, CoordinatorLoop& loop) {
+    const MachineJob job{.number = count.begin_in_pause(),
+                         .kind = kind,
+                         .program_id = {},
+                         .program = std::move(program),
+                         .client = paused.client};
+    loop.out.jobs.push_back(job_events::begun(job, start, loop.plays()));
+    return job;
+}
+
 }  // namespace
 
 MachineJob JobLifecycle::begin(JobKind kind, const Command& command, std::shared_ptr<const KnownProgram> program,
@@ -28,13 +40,7 @@ MachineJob JobLifecycle::begin(JobKind kind, const Command& command, std::shared
 MachineJob JobLifecycle::begin_in_pause(JobKind kind, std::shared_ptr<const KnownProgram> program,
                                         const AxisCounts& start, CoordinatorLoop& loop) {
     const MachineJob& paused = check_found(activity_.job(), "a job in a pause begins while another one pauses");
-    const MachineJob job{.number = count_.begin_in_pause(),
-                         .kind = kind,
-                         .program_id = {},
-                         .program = std::move(program),
-                         .client = paused.client};
-    loop.out.jobs.push_back(job_events::begun(job, start, loop.plays()));
-    return job;
+    return begin_aside(paused, kind, std::move(program), start, count_, loop);
 }
 
 void JobLifecycle::follow(PathTask task, const PathNext& next, std::optional<activity::Paused> pause,
@@ -64,15 +70,19 @@ void JobLifecycle::pause(activity::Paused paused, CoordinatorLoop& loop) {
     activity_.become(MachineEvent::Pauses, std::move(paused), loop.out);
 }
 
-void JobLifecycle::go_on(PathTask task, CoordinatorLoop& loop) {
+/// To make up lost steps is a job in the pause of the one that goes on. It does not wait again for an input that it has
+/// waited for.
+void JobLifecycle::go_on(activity::Paused paused, CoordinatorLoop& loop) {
     const OwnTargets lost = OwnTargets::of_lost_steps(loop);
     if (lost.motors().empty()) {
-        const PathNext next = path_.begin_leg(task, loop, loop.out.events);
-        return follow(std::move(task), next, {}, loop);
+        const PathNext next = path_.begin_leg(paused.task, loop, loop.out.events);
+        return follow(std::move(paused.task), next, {}, loop);
     }
     lost.order(loop.orders, loop.term);
-    activity::Correcting correcting{{}, std::move(task), lost};
-    activity_.become(MachineEvent::OwnMovesBegin, std::move(correcting), loop.out);
+    paused.why = {.reason = PauseReason::Hold};
+    paused.watch.reset();
+    const MachineJob job = begin_aside(paused.task.job, JobKind::Return, nullptr, lost.from(), count_, loop);
+    activity_.become(MachineEvent::OwnMovesBegin, activity::OwnMoves{{}, job, lost, std::move(paused)}, loop.out);
 }
 
 void JobLifecycle::end(JobOutcome outcome, CoordinatorLoop& loop) {
@@ -102,7 +112,7 @@ void JobLifecycle::end_in_pause(const MachineJob& job, activity::Paused pause, J
     if (!is_return || outcome != JobOutcome::Done) {
         return activity_.become(MachineEvent::Pauses, std::move(pause), loop.out);
     }
-    pause.why.wait ? this->pause(std::move(pause), loop) : go_on(std::move(pause.task), loop);
+    pause.why.wait ? this->pause(std::move(pause), loop) : go_on(std::move(pause), loop);
 }
 
 void JobLifecycle::end_early(const MachineJob& job, std::optional<std::int32_t> line, FaultCode why,

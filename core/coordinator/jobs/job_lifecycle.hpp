@@ -34,7 +34,7 @@ public:
     /// The job rests between two legs. If its program asks for an input, it waits for that from now on.
     void pause(activity::Paused paused, CoordinatorLoop& loop);
     /// Goes on to the next leg of a job that rests, after motors have made up the steps that they lost.
-    void go_on(PathTask task, CoordinatorLoop& loop);
+    void go_on(activity::Paused paused, CoordinatorLoop& loop);
     /// Ends the job in motion or held: done or stopped. A job in whose pause it took place waits again, or goes on.
     void end(JobOutcome outcome, CoordinatorLoop& loop);
 

@@ -46,6 +46,14 @@ void report_paused(const PathTask& task, const PathRunner& path, MachineState& s
     state.progress = task.progress.share();
 }
 
+void report_own(const activity::OwnMoves& moves, const PathRunner& path, MachineState& state, const LoopView& loop) {
+    state.progress = moves.targets.progress(loop.axes);
+    state.remaining_s = moves.targets.remaining_s(loop.now, loop.machine);
+    if (!moves.pause) { return; }
+    state.progress = moves.pause->task.progress.share();
+    state.remaining_s += seconds_after_pause(moves.pause->task, path);
+}
+
 /// Reports where each frame would rest, for another coordinator that may continue the task. If a block is planned in
 /// several parts, its place on the program does not say where it was left.
 void report_rests(const PathTask& task, const EpochRunner& runner, MachineState& state, const LoopView& loop) {
@@ -92,19 +100,13 @@ void report_job(const JobLifecycle& jobs, MachineState& state, const LoopView& l
     state.job_fault = count.fault();
     report_epoch(jobs.path(), state);
     const auto* const paused = activity.as<activity::Paused>();
-    report_pause(paused != nullptr ? paused : activity.pause(), state, loop);
+    const bool is_aside = !activity.is<activity::OwnMoves>();  // where motors make up lost steps, the job goes on
+    report_pause(paused != nullptr ? paused : is_aside ? activity.pause() : nullptr, state, loop);
     if (const MachineState* const inherited = activity.inherited()) {
         state.line = inherited->line;
         state.progress = inherited->progress;
     }
-    if (const auto* const moves = activity.as<activity::OwnMoves>()) {
-        state.progress = moves->targets.progress(loop.axes);
-        state.remaining_s = moves->targets.remaining_s(loop.now, loop.machine);
-    }
-    if (const auto* const correcting = activity.as<activity::Correcting>()) {
-        state.remaining_s = seconds_after_pause(correcting->task, jobs.path());
-        state.progress = correcting->task.progress.share();
-    }
+    if (const auto* const moves = activity.as<activity::OwnMoves>()) { report_own(*moves, jobs.path(), state, loop); }
     if (const auto* const held = activity.as<activity::Holding>()) {
         report_held(held->task, held->place, jobs.path(), state);
     }

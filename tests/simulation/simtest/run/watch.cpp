@@ -26,10 +26,10 @@ void Watch::look_at_owner() {
     if (other && phase() == MachinePhase::Idle) { cut_short(JobOutcome::Stopped); }
 }
 
-/// A move of axes that home by touch is a job within the homing.
+/// A move of axes that home by touch is a job within the homing, and a correction of lost steps one within its program.
 void Watch::take_job(std::size_t process, const JobEvent& job) {
     if (job.kind == JobEvent::Kind::Begun && job.job_kind == JobKind::Home && job.program) { homing_move_ = job.job; }
-    if (job.job == homing_move_) { return; }
+    if (job.job == homing_move_ || job.job_kind == JobKind::Return) { return; }
     if (job.kind == JobEvent::Kind::Begun) {
         job_of_ = process;
         orphaned_ = false;

@@ -189,6 +189,35 @@ TEST_F(LostSteps, FailTheJobWhenMoreAreLostMeanwhile) {
     EXPECT_EQ(vm.axis_states()[kX]->position.count(), 2000) << "the program has not begun";
 }
 
+class LostStepsBehindAWait : public LostSteps {
+protected:
+    LostStepsBehindAWait()
+        : LostSteps([] {
+              MachineConfig machine = correcting(small_machine());
+              machine.inputs = {{.name = "clamp", .motor = "X", .channel = 3, .use = InputUse::Program, .number = 3}};
+              return machine;
+          }()) {}
+};
+
+/// The input has changed as wanted: the job does not wait for another change.
+TEST_F(LostStepsBehindAWait, AreMadeUpWithoutASecondWait) {
+    home();
+    Program program = program_of({{20, 10}}, 40);
+    program.blocks.push_back({2, Pause{.reason = PauseReason::Input,
+                                       .text = "until clamp closes",
+                                       .wait = InputWait{3, InputMode::Closes, 5}}});
+    program.blocks.push_back({3, ProgramMove{{25, 10}, 40, false}});
+    ASSERT_EQ(run(program).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Paused, 5)) << describe();
+    vm.device(kY).plant().push(-20);
+    wait(0.05);
+    vm.set_input(0, true);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 3)) << describe();
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
+    EXPECT_EQ(y().corrected_steps, 20U);
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{2500, 1000}));
+}
+
 class LostStepsAreKept : public Rig {
 protected:
     LostStepsAreKept() : Rig({.machine = small_machine()}) {}
