@@ -66,8 +66,8 @@ private:
             const bool ordered = std::ranges::any_of(recording_.motors[i].orders, [&](const GivenOrder& given) {
                 using Kind = AxisCommandKind;
                 const Kind kind = given.order.kind;
-                const bool moves =
-                    kind == Kind::Home || kind == Kind::Approach || kind == Kind::MoveOwn || kind == Kind::Jog;
+                const bool moves = kind == Kind::Home || kind == Kind::Approach || kind == Kind::MoveOwn ||
+                                   kind == Kind::Jog || kind == Kind::Correct;
                 return given.order.term == motion.writer && given.at <= motion.begin && moves;
             });
             if (!ordered) { object(i, motion.begin, "its owner did not order this move"); }

@@ -2,34 +2,23 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "core/kinematics/following_error.hpp"
 
 namespace lockstep::simtest {
 namespace {
 
-/// The steps that a motor must make up, signed.
 std::int64_t due_steps(const Bench& bench, std::size_t motor) {
     const auto most = most_uncorrected(bench.kinematics().motors()[motor]);
     const std::int64_t slipped = bench.slipped(motor);
     return most && std::abs(slipped) > *most ? -slipped : 0;
 }
 
-double longest_seconds(const Bench& bench, const Counts& due) {
-    double longest = bench.protocol_seconds();
-    for (std::size_t m = 0; m < due.size(); ++m) {
-        const MotorConfig& motor = bench.kinematics().motors()[m];
-        const double mm = static_cast<double>(std::abs(due[m])) / motor.steps_per_mm;
-        longest = std::max(longest, bench.protocol_seconds() + 2 * mm / motor.start_velocity_mm_s);
-    }
-    return longest;
-}
-
-void check(Bench& bench, std::size_t motor, std::int64_t made, std::size_t steps, std::int64_t due) {
-    if (made == due && steps == static_cast<std::size_t>(std::abs(due))) { return; }
-    bench.object("correction", bench.kinematics().motors()[motor].name + " made " + std::to_string(steps) +
-                                   " steps that lead " + std::to_string(made) + " steps far, and should make up " +
-                                   std::to_string(due));
+std::int64_t sum_of(std::span<const StepEdge> steps) {
+    std::int64_t sum = 0;
+    for (const StepEdge& step : steps) { sum += step.direction; }
+    return sum;
 }
 
 }  // namespace
@@ -39,35 +28,64 @@ bool corrects(const MachineConfig& machine) {
                                [](const MotorConfig& motor) { return most_uncorrected(motor).has_value(); });
 }
 
-void play_correction(Bench& bench, JobRecord& job, Counts& at) {
-    Counts due;
-    std::vector<std::uint32_t> corrected;
-    for (std::size_t m = 0; m < at.size(); ++m) {
-        due.push_back(due_steps(bench, m));
-        corrected.push_back(bench.watch().motors()[m].corrected_steps);
+CorrectionPlayer::CorrectionPlayer(Bench& bench) : bench_(bench) {
+    for (std::size_t m = 0; m < bench.kinematics().motors().size(); ++m) {
+        due_.push_back(due_steps(bench, m));
+        corrected_.push_back(bench.watch().motors()[m].corrected_steps);
     }
-    if (std::ranges::all_of(due, [](std::int64_t steps) { return steps == 0; })) { return; }
-    const std::size_t begun = bench.recording().epochs_begun.size();
-    const auto is_over = [&] {
-        return bench.recording().epochs_begun.size() > begun || bench.watch().outcome().has_value();
+}
+
+std::optional<Tick> CorrectionPlayer::first_epoch_of(const JobRecord& job) {
+    for (const Tick begun : bench_.recording().epochs_begun) {
+        if (begun >= job.began) { return begun; }
+    }
+    return std::nullopt;
+}
+
+double CorrectionPlayer::longest_seconds() const {
+    double longest = bench_.protocol_seconds();
+    for (std::size_t m = 0; m < due_.size(); ++m) {
+        const MotorConfig& motor = bench_.kinematics().motors()[m];
+        const double mm = static_cast<double>(std::abs(due_[m])) / motor.steps_per_mm;
+        longest = std::max(longest, bench_.protocol_seconds() + 2 * mm / motor.start_velocity_mm_s);
+    }
+    return longest;
+}
+
+void CorrectionPlayer::check(std::size_t motor, std::span<const StepEdge> steps) {
+    const std::int64_t due = due_[motor];
+    if (sum_of(steps) == due && std::cmp_equal(steps.size(), std::abs(due))) { return; }
+    bench_.object("correction", bench_.kinematics().motors()[motor].name + " made " + std::to_string(steps.size()) +
+                                    " steps that lead " + std::to_string(sum_of(steps)) +
+                                    " steps far, and should make up " + std::to_string(due));
+}
+
+/// The answer to the client may come late, so the steps before the first epoch count, whenever it began.
+void CorrectionPlayer::play(JobRecord& job, Counts& at) {
+    if (std::ranges::all_of(due_, [](std::int64_t steps) { return steps == 0; })) { return; }
+    const auto is_over = [&] {  // the program may begin with a pause
+        return first_epoch_of(job) || bench_.watch().outcome() || bench_.watch().phase() == MachinePhase::Paused;
     };
-    (void)bench.await(is_over, longest_seconds(bench, due), "a correction of lost steps");
-    const bool is_undisturbed = !bench.faulted() && !bench.disturbed_since(job.began);
-    if (bench.recording().epochs_begun.size() == begun) { bench.settle(longest_seconds(bench, due)); }
+    (void)bench_.await(is_over, longest_seconds(), "a correction of lost steps");
+    const auto epoch = first_epoch_of(job);
+    const bool is_undisturbed = !bench_.faulted() && !bench_.disturbed_since(job.began);
+    if (!epoch && (bench_.faulted() || bench_.watch().outcome())) { bench_.settle(longest_seconds()); }
     JobRecord alone{.homing = true, .course = {}, .first_step = job.first_step, .began = job.began};
-    alone.end_step = job.first_step = bench.steps_made();
-    alone.ended = bench.vm().now();
-    for (std::size_t m = 0; m < at.size() && !bench.over(); ++m) {
-        std::int64_t made = 0;
-        for (const StepEdge& step : bench.recording().steps_of(alone, m)) { made += step.direction; }
-        const std::size_t steps = alone.end_step[m] - alone.first_step[m];
-        const AxisState& state = bench.watch().motors()[m];
-        if (is_undisturbed) { check(bench, m, made, steps, due[m]); }
-        if (state.corrected_steps == corrected[m]) { continue; }
-        bench.forget_slips(m);
-        at[m] += made - due[m];
+    alone.end_step = bench_.steps_made();
+    for (std::size_t m = 0; m < at.size() && !bench_.over(); ++m) {
+        const MotorRecord& motor = bench_.recording().motors[m];
+        const auto is_before = [&](const StepEdge& step) { return !epoch || motor.truth(step) < *epoch; };
+        std::size_t& end = alone.end_step[m];
+        while (end > alone.first_step[m] && !is_before(motor.steps[end - 1])) { --end; }
+        const auto steps = bench_.recording().steps_of(alone, m);
+        if (is_undisturbed) { check(m, steps); }
+        if (bench_.watch().motors()[m].corrected_steps == corrected_[m]) { continue; }
+        bench_.forget_slips(m);
+        at[m] += sum_of(steps) - due_[m];
     }
-    bench.recording().jobs.push_back(std::move(alone));
+    job.first_step = alone.end_step;
+    alone.ended = epoch.value_or(bench_.vm().now());
+    bench_.recording().jobs.push_back(std::move(alone));
 }
 
 }  // namespace lockstep::simtest

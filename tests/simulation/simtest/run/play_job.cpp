@@ -277,11 +277,12 @@ bool JobPlayer::start() {
     Program whole = starting_at(bench_, at_, task_.program);
     const std::uint64_t program = task_.parts.empty() ? bench_.send_program(std::move(whole))
                                                       : bench_.stream_program(std::move(whole), task_.parts);
+    CorrectionPlayer correction(bench_);
     const Reply* reply = bench_.ask_in_time(CommandKind::Run, program);
     if (reply == nullptr) { return false; }
     begun_ = reply->status == ReplyStatus::Accepted;
     if (!begun_) { refused("refusal", *reply); }
-    if (begun_) { play_correction(bench_, job_, at_); }
+    if (begun_) { correction.play(job_, at_); }
     moving_since_ = bench_.vm().now();
     return !bench_.over();
 }
