@@ -11,7 +11,6 @@
 
 #include "core/device/device_name.hpp"
 #include "core/device/input_config.hpp"
-#include "core/device/link_name.hpp"
 #include "core/device/workpiece_config.hpp"
 #include "core/enumeration.hpp"
 #include "core/indices.hpp"
@@ -147,14 +146,6 @@ struct BoardConfig {
     bool operator==(const BoardConfig&) const = default;
 };
 
-/// A board that carries the devices of several motors, which it executes by itself: a motor whose device is
-/// "board:NAME/N" has one of them. The board itself takes part in no frame; its motors do.
-struct BoardLinkConfig {
-    std::string name;
-    LinkName link;
-    bool operator==(const BoardLinkConfig&) const = default;
-};
-
 /// A share of an axis in the place of a motor.
 struct AxisShare {
     std::string axis;
@@ -212,56 +203,6 @@ struct KinematicsConfig {
     bool operator==(const KinematicsConfig&) const = default;
 };
 
-struct NetworkConfig {
-    std::string interface = "lo";
-    std::uint32_t domain = 0;
-    std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
-    std::vector<std::string> peers;  // hosts that discovery asks, without multicast; none: it multicasts
-    std::size_t processes = 0;       // their number; with more, each sends discovery and repair messages less often
-    bool one_host = false;           // states of axes go through shared memory, and only seldom over the network
-};
-
-/// The flight recorder: keeps the latest notes of each process for the analysis of a fault.
-struct FlightConfig {
-    bool kept = true;
-    std::int64_t memory_kb = 1024;
-    int files = 20;  // kept for each process
-    bool operator==(const FlightConfig&) const = default;
-};
-
-/// The logs that the axes and the coordinator write themselves, each on its own board.
-struct RecordConfig {
-    bool own_logs = true;
-    std::string directory;  // empty: the host's default directory
-    std::int64_t size_limit_mb = 256;
-    FlightConfig flight;
-    bool operator==(const RecordConfig&) const = default;
-};
-
-/// Whether the machine's processes authenticate each other.
-struct SecurityConfig {
-    std::string directory;  // of certificates, keys and permissions; empty: no authentication
-    bool enabled() const { return !directory.empty(); }
-    bool operator==(const SecurityConfig&) const = default;
-};
-
-/// The requests of the machine's processes to their host's scheduler.
-struct RealTimeConfig {
-    int priority = 0;       // under SCHED_FIFO, with memory locked and touched beforehand; 0: no request
-    std::vector<int> cpus;  // processors that the processes may use; empty: all
-    bool operator==(const RealTimeConfig&) const = default;
-};
-
-/// The web page to operate the machine (lockstep-web). Nothing in motion depends on it.
-struct WebConfig {
-    std::string address = "127.0.0.1";  // of the listening socket; other hosts can connect only with a certificate
-    int port = 2302;
-    std::string certificate_file;  // PEM; empty: no TLS
-    std::string key_file;
-    std::vector<std::string> host_names;  // accepted in URLs, besides the address and this host's own name
-    bool operator==(const WebConfig&) const = default;
-};
-
 /// The fate of a job on a path whose client falls silent.
 enum class UnattendedJob : std::uint8_t { RunsOn, IsHeld };
 
@@ -269,20 +210,11 @@ struct MachineConfig {
     std::string name;
     std::int64_t tick_ns = 1000;
     ProtocolTiming timing;
-    NetworkConfig network;
-    SecurityConfig security;
-    RecordConfig record;
-    std::string position_directory;                // where axes store their positions; empty: the host's default
     StepMethod coordination = StepMethod::Ranade;  // of coordinated moves of several axes: Ranade or Lai
-    std::string coordinator_host;                  // on which it runs; empty: any host
-    RealTimeConfig real_time;
     UnassignedWords unassigned;
     UnattendedJob unattended_job = UnattendedJob::RunsOn;
-    std::string subroutine_directory;  // searched after the program's own; empty: only that
-    std::optional<WebConfig> web;      // none: `lockstep up` starts no page
     std::vector<AxisConfig> axes;
     std::vector<BoardConfig> boards;
-    std::vector<BoardLinkConfig> board_links;
     KinematicsConfig kinematics;
     std::vector<OutputConfig> outputs;
     double output_silence_ms = 500;  // how long a process may be silent until the outputs of its device go off

@@ -81,7 +81,7 @@ Finding rate_send_buffer(std::int64_t needed, std::int64_t given) {
             fmt::format("sysctl -w net.core.wmem_max={}", needed)};
 }
 
-Finding rate_states(const MachineConfig& machine, const std::expected<std::string, std::string>& memory) {
+Finding rate_states(const MachineSetup& machine, const std::expected<std::string, std::string>& memory) {
     constexpr std::size_t kMany = 16;  // axes; on a host with so many, their states are most of its work
     const std::size_t axes = motor_count(machine);
     const bool shares = machine.network.one_host;

@@ -9,7 +9,7 @@
 
 #include "clients/doctor/finding.hpp"
 #include "core/kinematics/motors.hpp"
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep::doctor {
 
@@ -33,7 +33,7 @@ Finding rate_buffer(std::int64_t asked, std::int64_t given);
 Finding rate_send_buffer(std::int64_t needed, std::int64_t given);
 
 /// memory: the file of the axes' states with network.one_host, or the reason why it cannot be created.
-Finding rate_states(const MachineConfig& machine, const std::expected<std::string, std::string>& memory);
+Finding rate_states(const MachineSetup& machine, const std::expected<std::string, std::string>& memory);
 
 /// Each text is the reason for a refusal, or empty if the host permits it.
 struct RealTimeFacts {

@@ -14,7 +14,7 @@ public:
     explicit SettingsStore(const ChosenMachine& machine);
 
     /// The configuration that the machine will have when it is next brought up.
-    const MachineConfig& next() const { return next_; }
+    const MachineSetup& next() const { return next_; }
     /// The settings are on the disk on return. If the machine cannot have them or the file cannot be written, returns
     /// an error and leaves the file unchanged.
     std::expected<void, Refused> keep(const KeptSettings& settings);
@@ -25,7 +25,7 @@ private:
     std::expected<void, Refused> write(const KeptSettings& settings);
 
     std::filesystem::path source_;  // the machine's file
-    MachineConfig next_;
+    MachineSetup next_;
 };
 
 }  // namespace lockstep::grbl

@@ -22,7 +22,7 @@ proto::AwaitedPart awaited(const std::string& name, const std::string& host, con
 }
 
 /// The state of an axis that is not received by this client or not by the coordinator.
-std::string axis_state(const MachineConfig& machine, const KnownParts& known, MotorIndex motor) {
+std::string axis_state(const MachineSetup& machine, const KnownParts& known, MotorIndex motor) {
     if (known.motors_present.contains(motor)) { return "started, but its messages do not reach the coordinator"; }
     if (!is_present(known.present, motor)) { return kAbsent; }
     const bool lacks_time = machine.timing.time_source == TimeSource::Network;
@@ -40,11 +40,11 @@ KnownParts known_parts(const Session& session) {
     return known;
 }
 
-std::string part_name(const MachineConfig& machine, std::optional<MotorIndex> motor) {
+std::string part_name(const MachineSetup& machine, std::optional<MotorIndex> motor) {
     return motor ? Kinematics(machine).label(*motor) : "coordinator";
 }
 
-std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, const KnownParts& known) {
+std::vector<proto::AwaitedPart> awaited_parts(const MachineSetup& machine, const KnownParts& known) {
     std::vector<proto::AwaitedPart> parts;
     if (!known.coordinator_present) {
         const bool is_there = is_present(known.present, std::nullopt);

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "clients/session/session.hpp"
-#include "core/machine.hpp"
 #include "idl/proto/report.pb.h"
+#include "services/setup/machine_setup.hpp"
 #include "services/wire/dds/present_processes.hpp"
 
 namespace lockstep {
@@ -22,10 +22,10 @@ struct KnownParts {
 KnownParts known_parts(const Session& session);
 
 /// Returns "axis Z", or "coordinator" for nullopt.
-std::string part_name(const MachineConfig& machine, std::optional<MotorIndex> motor);
+std::string part_name(const MachineSetup& machine, std::optional<MotorIndex> motor);
 
 /// The parts that are not received by this client, or not by the coordinator. Pure.
-std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, const KnownParts& seen);
+std::vector<proto::AwaitedPart> awaited_parts(const MachineSetup& machine, const KnownParts& seen);
 
 void add_awaited(const Session& session, proto::StatusReport& report);
 

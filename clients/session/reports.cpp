@@ -313,7 +313,7 @@ std::string process_label(const proto::AxisStatus& row) {
     return (row.board() ? "board " : row.has_axis() ? "motor " : "axis ") + row.name();
 }
 
-void add_incidents(const MachineConfig& machine, proto::StatusReport& report) {
+void add_incidents(const MachineSetup& machine, proto::StatusReport& report) {
     const auto files = incident_files(incident_directory(machine));
     if (files.empty()) { return; }
     proto::Incidents& incidents = *report.mutable_incidents();

@@ -46,7 +46,7 @@ std::optional<proto::PauseReport> pause_report(const Session& session);
 proto::StatusReport status_report(const Session& session);
 
 /// Adds the directory of incident files of this host's flight recorders; reads the directory.
-void add_incidents(const MachineConfig& machine, proto::StatusReport& report);
+void add_incidents(const MachineSetup& machine, proto::StatusReport& report);
 
 /// The position of an axis, in mm and in steps.
 proto::FinalPosition place_of(const AxisConfig& axis, std::int64_t count);

@@ -19,7 +19,7 @@ constexpr std::size_t kRepliesKept = 64;  // that were not read
 static_assert(kPartBytes + 4096 <= lockstep_wire_MAX_CHUNK_BYTES);  // 4096: the last block, or the values
 
 template <typename Bus>
-std::expected<std::variant<ViewerBus, ClientBus>, std::string> open_as(const MachineConfig& machine,
+std::expected<std::variant<ViewerBus, ClientBus>, std::string> open_as(const MachineSetup& machine,
                                                                        const Membership& membership) {
     auto bus = open_bus<Bus>(machine.network, machine.name, membership);
     if (!bus) { return std::unexpected(bus.error()); }

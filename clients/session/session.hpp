@@ -47,7 +47,7 @@ public:
     }
 
     const ChosenMachine& machine() const { return machine_; }
-    const MachineConfig& config() const { return machine_.config; }
+    const MachineSetup& config() const { return machine_.config; }
     /// True if the coordinator runs another configuration than the client has; its positions and limits may differ.
     bool config_differs() const { return state() && state()->state.config_hash != machine_.hash; }
     /// Whether a coordinator publishes states, and a commanding client is matched with it.

@@ -23,7 +23,7 @@ constexpr nanoseconds kAbsentPatience = 500ms;  // for an axis that the coordina
 
 std::size_t motors_of(const Session& session) { return session.received().kinematics().motors().size(); }
 
-std::string place_text(const MachineConfig& machine) {
+std::string place_text(const MachineSetup& machine) {
     return fmt::format("machine '{}' answers on interface {}, domain {}", machine.name, machine.network.interface,
                        machine.network.domain);
 }
@@ -59,7 +59,7 @@ std::expected<void, Failure> await_parts(Session& session, const std::function<b
 }  // namespace
 
 Failure silence(const Session& session) {
-    const MachineConfig& machine = session.config();
+    const MachineSetup& machine = session.config();
     const std::string refused = last_dds_message().empty() ? "" : " (DDS reports: " + last_dds_message() + ")";
     const std::string none = "no coordinator of " + place_text(machine) + refused;
     if (const std::string& host = machine.coordinator_host; !host.empty() && !same_host(host, host_name())) {

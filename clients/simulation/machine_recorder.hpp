@@ -31,7 +31,7 @@ public:
 private:
     void note_owner(MachineState state);
 
-    MachineConfig machine_;
+    MachineSetup machine_;
     RecordSink& sink_;
     std::vector<std::unique_ptr<AxisRecorder>> axes_;  // created when the axis's process publishes its identity
     std::vector<std::vector<StepEdge>> found_;         // steps found by a process before it published its identity

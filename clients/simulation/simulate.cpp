@@ -39,7 +39,7 @@ std::string remedy_of_wait(const OutputConfig* spindle) {
 
 class Simulation {
 public:
-    Simulation(const MachineConfig& machine, RecordSink& sink, const SimulationHooks& hooks,
+    Simulation(const MachineSetup& machine, RecordSink& sink, const SimulationHooks& hooks,
                const MakeRows& make_rows = memory_rows)
         : vm_({.machine = machine, .config_hash = config_hash(machine), .make_rows = make_rows}),
           recorder_(vm_, sink),
@@ -262,12 +262,12 @@ std::expected<SimulationResult, std::string> Simulation::home_and_run(const std:
 
 }  // namespace
 
-std::expected<SimulationResult, std::string> simulate(const MachineConfig& machine, const Program& program,
+std::expected<SimulationResult, std::string> simulate(const MachineSetup& machine, const Program& program,
                                                       RecordSink& sink, const SimulationHooks& hooks) {
     return Simulation(machine, sink, hooks).run(program);
 }
 
-std::expected<SimulationResult, std::string> simulate(const MachineConfig& machine, ProgramText& program,
+std::expected<SimulationResult, std::string> simulate(const MachineSetup& machine, ProgramText& program,
                                                       RecordSink& sink, const SimulationHooks& hooks,
                                                       std::uint64_t kept_bytes) {
     SlidingRows* rows = nullptr;  // the coordinator's

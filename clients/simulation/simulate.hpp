@@ -13,10 +13,10 @@
 
 #include "clients/planning/program_text.hpp"
 #include "core/faults.hpp"
-#include "core/machine.hpp"
 #include "core/program.hpp"
 #include "core/protocol/messages.hpp"
 #include "services/record/record_sink.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
@@ -51,7 +51,7 @@ struct SimulationHooks {
 
 /// Powers up, homes all axes, runs the program through its pauses. Fails if the caller cancels. A program that fails is
 /// a result, and is recorded.
-std::expected<SimulationResult, std::string> simulate(const MachineConfig& machine, const Program& program,
+std::expected<SimulationResult, std::string> simulate(const MachineSetup& machine, const Program& program,
                                                       RecordSink& sink, const SimulationHooks& hooks = {});
 
 /// The same for a program of any length: the machine runs it while it is read, so that memory does not grow with its
@@ -60,7 +60,7 @@ std::expected<SimulationResult, std::string> simulate(const MachineConfig& machi
 /// ahead. A text with GcodeSetup::awaits_touches is run part by part, up to each probing move. Not for the LAI method,
 /// which plans programs as a whole.
 inline constexpr std::uint64_t kKeptBlockBytes = 8'000'000;
-std::expected<SimulationResult, std::string> simulate(const MachineConfig& machine, ProgramText& program,
+std::expected<SimulationResult, std::string> simulate(const MachineSetup& machine, ProgramText& program,
                                                       RecordSink& sink, const SimulationHooks& hooks = {},
                                                       std::uint64_t kept_bytes = kKeptBlockBytes);
 

@@ -46,7 +46,7 @@ void warn_of_directory(const std::string& lost, const std::filesystem::path& pat
 }
 
 /// The services find the same problems, but report them only in their logs.
-void warn_of_directories(const MachineConfig& machine, const Placement& placed, Output& output) {
+void warn_of_directories(const MachineSetup& machine, const Placement& placed, Output& output) {
     if (machine.record.own_logs) {
         warn_of_directory("the processes on this host write no logs of their own", own_log_directory(machine),
                           "record { directory }", output);
@@ -113,7 +113,7 @@ std::string with_log(const std::string& what, const std::string& process, const 
 }
 
 /// An error of a process that was given up, or of a part that runs elsewhere; nullopt while the start may succeed.
-std::optional<std::string> trouble(const MachineConfig& machine, const OwnParts& parts, const StateDirectory& state,
+std::optional<std::string> trouble(const MachineSetup& machine, const OwnParts& parts, const StateDirectory& state,
                                    const ProcessRecord& supervisor, const std::vector<PresentProcess>& present) {
     for (const ProcessRecord& process : state.recorded()) {
         if (!process.pid && process.name != kWeb) {
@@ -154,7 +154,7 @@ Failure missing(const Session& session, const OwnParts& parts, const StateDirect
 }
 
 /// The name of a part without a host, if the machine has several hosts; empty if every part has one.
-std::string part_without_host(const MachineConfig& machine) {
+std::string part_without_host(const MachineSetup& machine) {
     if (hosts_of(machine).size() < 2) { return ""; }
     if (machine.coordinator_host.empty()) { return part_name(machine, {}); }
     const std::vector<MotorConfig> motors = motors_of(machine);
@@ -217,7 +217,7 @@ bool is_whole(const Session& session) {
     return phase == MachinePhase::Idle || phase == MachinePhase::Fault;
 }
 
-bool is_alone(const MachineConfig& machine, const Placement& placed) {
+bool is_alone(const MachineSetup& machine, const Placement& placed) {
     return placed.coordinator && placed.axes.size() == motor_count(machine);
 }
 

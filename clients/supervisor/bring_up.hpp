@@ -35,7 +35,7 @@ std::expected<ProcessRecord, Failure> supervise_in_background(const StateDirecto
 bool is_whole(const Session& session);
 
 /// True if this host runs every part of the machine.
-bool is_alone(const MachineConfig& machine, const Placement& placed);
+bool is_alone(const MachineSetup& machine, const Placement& placed);
 
 /// Waits until this host's parts are on the network. If this host runs all parts, waits until the machine is whole.
 /// Parts of other hosts may start at any time. Fails if a part runs elsewhere, was given up, or is missing; the error

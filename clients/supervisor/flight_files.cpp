@@ -8,7 +8,7 @@ namespace lockstep {
 namespace {
 
 /// Writes the notes of living processes, which may run or stand still and need not cooperate.
-void write_living(const std::filesystem::path& rings, const MachineConfig& machine, proto::FlightReport& report) {
+void write_living(const std::filesystem::path& rings, const MachineSetup& machine, proto::FlightReport& report) {
     for (const auto& path : rings_in(rings)) {
         const auto snapshot = read_ring(path);
         if (!snapshot || snapshot->source.directory != incident_directory(machine)) { continue; }
@@ -20,7 +20,7 @@ void write_living(const std::filesystem::path& rings, const MachineConfig& machi
 
 }  // namespace
 
-proto::FlightReport write_flight_files(const MachineConfig& machine) {
+proto::FlightReport write_flight_files(const MachineSetup& machine) {
     proto::FlightReport report;
     report.set_directory(incident_directory(machine).string());
     for (const auto& rings : memory_directories()) {

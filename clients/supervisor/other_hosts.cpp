@@ -55,7 +55,7 @@ std::string all_of(int pipe) {
 
 }  // namespace
 
-OtherHosts::OtherHosts(const AllHosts& all, const MachineConfig& machine, const std::string& machine_file,
+OtherHosts::OtherHosts(const AllHosts& all, const MachineSetup& machine, const std::string& machine_file,
                        const std::vector<std::string>& verb) {
     for (const std::string& host : all.asked ? hosts_of(machine) : std::vector<std::string>{}) {
         if (same_host(host, host_name())) { continue; }

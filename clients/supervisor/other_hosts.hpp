@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "clients/text/output.hpp"
-#include "core/machine.hpp"
 #include "services/files/descriptor.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
@@ -20,7 +20,7 @@ struct AllHosts {
 class OtherHosts {
 public:
     /// `machine_file`: the value of the option, empty if not given. All hosts get the same path.
-    OtherHosts(const AllHosts& all, const MachineConfig& machine, const std::string& machine_file,
+    OtherHosts(const AllHosts& all, const MachineSetup& machine, const std::string& machine_file,
                const std::vector<std::string>& verb);
     ~OtherHosts();
     OtherHosts(const OtherHosts&) = delete;

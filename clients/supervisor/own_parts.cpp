@@ -48,7 +48,7 @@ bool are_present(const std::vector<ServiceLine>& lines, const std::vector<Proces
     });
 }
 
-std::optional<std::string> foreign_part(const MachineConfig& machine, const Placement& placed,
+std::optional<std::string> foreign_part(const MachineSetup& machine, const Placement& placed,
                                         const ProcessRecord& supervisor, const std::vector<PresentProcess>& present) {
     const std::string here = host_name();
     for (const PresentProcess& process : present) {

@@ -8,8 +8,8 @@
 
 #include "clients/supervisor/process_record.hpp"
 #include "clients/supervisor/service_lines.hpp"
-#include "core/machine.hpp"
 #include "services/documents/placement.hpp"
+#include "services/setup/machine_setup.hpp"
 #include "services/wire/dds/present_processes.hpp"
 
 namespace lockstep {
@@ -20,7 +20,7 @@ bool are_present(const std::vector<ServiceLine>& lines, const std::vector<Proces
 
 /// Describes a part that is placed on this host but runs as a process that the recorded supervisor did not start, with
 /// the remedy. Returns nullopt if there is none.
-std::optional<std::string> foreign_part(const MachineConfig& machine, const Placement& placed,
+std::optional<std::string> foreign_part(const MachineSetup& machine, const Placement& placed,
                                         const ProcessRecord& supervisor, const std::vector<PresentProcess>& present);
 
 }  // namespace lockstep

@@ -8,7 +8,7 @@ namespace lockstep {
 namespace {
 
 /// The boards behind links that carry devices of these motors, each once.
-std::set<std::string> boards_of(const MachineConfig& machine, const std::vector<MotorIndex>& placed) {
+std::set<std::string> boards_of(const MachineSetup& machine, const std::vector<MotorIndex>& placed) {
     const std::vector<MotorConfig> motors = motors_of(machine);
     std::set<std::string> boards;
     for (const MotorIndex i : placed) {
@@ -17,17 +17,17 @@ std::set<std::string> boards_of(const MachineConfig& machine, const std::vector<
     return boards;
 }
 
-std::string shared_name(const MachineConfig& machine, const std::string& motor) {
+std::string shared_name(const MachineSetup& machine, const std::string& motor) {
     return "lockstep-" + machine.name + "-" + motor;
 }
 
 }  // namespace
 
-DeviceName shared_device(const MachineConfig& machine, const std::string& motor) {
+DeviceName shared_device(const MachineSetup& machine, const std::string& motor) {
     return {DeviceName::Kind::Shared, shared_name(machine, motor)};
 }
 
-std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Placement& placed, const Layout& layout,
+std::vector<ServiceLine> service_lines(const MachineSetup& machine, const Placement& placed, const Layout& layout,
                                        const std::filesystem::path& programs, const StateDirectory& state) {
     const auto begin = [&](const char* program) {
         return std::vector<std::string>{(programs / program).string(), "--machine", state.machine_file().string()};

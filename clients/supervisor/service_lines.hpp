@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "clients/supervisor/state_directory.hpp"
-#include "core/machine.hpp"
 #include "services/documents/placement.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
@@ -30,11 +30,11 @@ struct ServiceLine {
 inline constexpr const char* kWeb = "web";
 
 /// The name, for open_window(), of a device that runs in its own process.
-DeviceName shared_device(const MachineConfig& machine, const std::string& motor);
+DeviceName shared_device(const MachineSetup& machine, const std::string& motor);
 
 /// The machine's parts that are `placed` on this host. Devices come first, because axes attach to them. The page comes
 /// last, on the coordinator's host. `programs`: the directory of the services' executables.
-std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Placement& placed, const Layout& layout,
+std::vector<ServiceLine> service_lines(const MachineSetup& machine, const Placement& placed, const Layout& layout,
                                        const std::filesystem::path& programs, const StateDirectory& state);
 
 }  // namespace lockstep

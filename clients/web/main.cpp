@@ -35,7 +35,7 @@ struct Options {
 };
 
 /// The settings of the machine's file, overridden by those of the command line.
-WebConfig merged(const Options& options, const MachineConfig& machine) {
+WebConfig merged(const Options& options, const MachineSetup& machine) {
     WebConfig web = machine.web.value_or(WebConfig{});
     web.address = options.address.value_or(web.address);
     web.port = options.port.value_or(web.port);

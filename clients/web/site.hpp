@@ -33,7 +33,7 @@ private:
     Site(Session session, const SiteOptions& options);
     void publish(const Snapshot& snapshot);
 
-    MachineConfig machine_;
+    MachineSetup machine_;
     EventLog log_;
     ProgramDesk desk_;
     ReportFiles reports_;

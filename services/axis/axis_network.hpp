@@ -37,7 +37,7 @@ struct AxisReceived {
 class AxisNetwork {
 public:
     struct Setup {
-        MachineConfig machine;
+        MachineSetup machine;
         MotorIndex motor;
         Identity identity = 0;
         MachineClock clock;

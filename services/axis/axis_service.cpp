@@ -43,9 +43,9 @@ namespace {
 using std::chrono::nanoseconds;
 
 OpenDevice opener_of(const DeviceName& device, const MotorConfig& motor, const MachineClock& clock,
-                     const MachineConfig& machine) {
+                     const MachineSetup& machine) {
     if (device.kind == DeviceName::Kind::Simulated) {
-        return [machine, motor](Tick now) { return simulated_port(machine, motor, now); };
+        return [machine, motor](Tick now) { return simulated_port(machine, machine.network.domain, motor, now); };
     }
     if (device.kind == DeviceName::Kind::Linked) {
         MotorConfig linked = motor;
@@ -68,7 +68,7 @@ void report_disk_failure(const std::string& why) {
                 "; set position_directory to a directory that can be written");
 }
 
-KeptOrNot kept_position(const MachineConfig& machine, MotorIndex motor) {
+KeptOrNot kept_position(const MachineSetup& machine, MotorIndex motor) {
     ReadPosition read = read_position(position_file(machine, motor));
     if (!read.trouble.empty()) { log_warning("the kept position is refused: " + read.trouble); }
     return std::move(read.kept);
@@ -77,18 +77,19 @@ KeptOrNot kept_position(const MachineConfig& machine, MotorIndex motor) {
 /// The state of the process's loop.
 class AxisService {
 public:
-    AxisService(const AxisNode::Setup& setup, const DeviceName& device, const MachineClock& clock, AxisNetwork network,
-                std::unique_ptr<RecordSink> sink)
-        : setup_(setup),
+    AxisService(const MachineSetup& machine, const AxisNode::Setup& setup, const DeviceName& device,
+                const MachineClock& clock, AxisNetwork network, std::unique_ptr<RecordSink> sink)
+        : machine_(machine),
+          setup_(setup),
           device_(device.text()),
           clock_(clock),
-          node_(setup, opener_of(device, motors_of(setup.machine)[setup.motor], clock, setup.machine)),
+          node_(setup, opener_of(device, motors_of(setup.machine)[setup.motor], clock, machine)),
           network_(std::move(network)),
           sink_(std::move(sink)),
-          flight_log_(open_flight(setup.machine, motor_name(setup.machine, setup.motor), setup.identity)),
+          flight_log_(open_flight(machine, motor_name(setup.machine, setup.motor), setup.identity)),
           flight_(setup.motor, setup.machine, *flight_log_),
           recorder_(setup.machine, setup.motor, setup.identity, *sink_),
-          keeper_(position_file(setup.machine, setup.motor), report_disk_failure),
+          keeper_(position_file(machine, setup.motor), report_disk_failure),
           meter_(setup.motor, setup.identity, setup.machine.tick_ns) {
         node_.measure(meter_);
         node_.note_in(flight_);
@@ -199,7 +200,7 @@ private:
         }
         if (const std::uint64_t lost = sink_->failures(); lost != lost_records_) {
             lost_records_ = lost;
-            log_warning(lost_records_text(setup_.machine, lost));
+            log_warning(lost_records_text(machine_, lost));
         }
         const std::uint64_t refused = network_.refused();
         if (refused != refused_) {
@@ -225,6 +226,7 @@ private:
     const std::string& own_name() const { return motor_name(setup_.machine, setup_.motor); }
     std::string own_label() const { return Kinematics(setup_.machine).label(setup_.motor); }
 
+    MachineSetup machine_;
     AxisNode::Setup setup_;
     std::string device_;  // its name
     MachineClock clock_;
@@ -250,7 +252,7 @@ private:
     std::string end_reason_;
 };
 
-int run(const AxisServiceOptions& options, const MachineConfig& machine, MotorIndex motor, const DeviceName& device) {
+int run(const AxisServiceOptions& options, const MachineSetup& machine, MotorIndex motor, const DeviceName& device) {
     StopSignal stop;
     const EndGuard guard(stop);
     for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
@@ -261,7 +263,7 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, MotorIn
     if (!admission) { return end_with_failure(admission.error()); }
     auto network = AxisNetwork::open({machine, motor, setup.identity, clock, *admission});
     if (!network) { return end_with_failure(network.error()); }
-    AxisService service(setup, device, clock, std::move(*network),
+    AxisService service(machine, setup, device, clock, std::move(*network),
                         open_record(machine, motor_name(machine, motor), options.record));
     const std::string label = Kinematics(machine).label(motor);
     log_info(fmt::format("{} of machine {} is up, device {}", label, machine.name, device.text()));
@@ -288,7 +290,7 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, MotorIn
 int serve_axis(const AxisServiceOptions& options) {
     const auto loaded = load_machine(options.machine_file);
     if (!loaded) { return end_with_bad_input(to_text(options.machine_file.string(), loaded.error())); }
-    const MachineConfig& machine = loaded->config;
+    const MachineSetup& machine = loaded->config;
     const auto motor = axis_to_run(machine, options.axis, host_name());
     if (!motor) { return end_with_bad_input(options.machine_file.string() + ": " + motor.error()); }
     const MotorConfig config = motors_of(machine)[*motor];

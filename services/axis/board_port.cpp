@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-std::expected<std::unique_ptr<DevicePort>, std::string> BoardPort::open(const MachineConfig& machine,
+std::expected<std::unique_ptr<DevicePort>, std::string> BoardPort::open(const MachineSetup& machine,
                                                                         const MotorConfig& motor,
                                                                         const MachineClock& clock) {
     auto window = open_window(motor.device, machine);

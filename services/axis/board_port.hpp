@@ -8,10 +8,10 @@
 #include <string>
 
 #include "core/kinematics/motors.hpp"
-#include "core/machine.hpp"
 #include "services/axis/device_port.hpp"
 #include "services/axis/window_port.hpp"
 #include "services/runtime/clock.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
@@ -19,7 +19,7 @@ class BoardPort final : public DevicePort {
 public:
     /// The motor's device is linked. Error: lockstep-board does not run, the board does not answer, or as
     /// attach_driver().
-    static std::expected<std::unique_ptr<DevicePort>, std::string> open(const MachineConfig& machine,
+    static std::expected<std::unique_ptr<DevicePort>, std::string> open(const MachineSetup& machine,
                                                                         const MotorConfig& motor,
                                                                         const MachineClock& clock);
 

@@ -10,7 +10,7 @@ namespace lockstep {
 namespace {
 
 /// Keeps what was opened if it is the window of a device that answers.
-std::expected<RegisterWindow, std::string> open_board_window(const DeviceName& device, const MachineConfig& machine) {
+std::expected<RegisterWindow, std::string> open_board_window(const DeviceName& device, const MachineSetup& machine) {
     const std::string& board = device.place;
     auto window = RegisterWindow::open_shared(firmware::board_window_name(machine.name, board, device.number));
     if (!window) { return std::unexpected(window.error() + "; start lockstep-board --board " + board); }
@@ -26,7 +26,7 @@ std::expected<RegisterWindow, std::string> open_board_window(const DeviceName& d
 
 }  // namespace
 
-std::expected<RegisterWindow, std::string> open_window(const DeviceName& device, const MachineConfig& machine) {
+std::expected<RegisterWindow, std::string> open_window(const DeviceName& device, const MachineSetup& machine) {
     switch (device.kind) {
         case DeviceName::Kind::Simulated: break;
         case DeviceName::Kind::Shared: return RegisterWindow::open_shared(device.place);
@@ -36,7 +36,7 @@ std::expected<RegisterWindow, std::string> open_window(const DeviceName& device,
     fail_check("a device in its axis's process has no window to open", std::source_location::current());
 }
 
-std::string link_remedy(const DeviceName& device, const MachineConfig& machine) {
+std::string link_remedy(const DeviceName& device, const MachineSetup& machine) {
     const auto found = std::ranges::find(machine.board_links, device.place, &BoardLinkConfig::name);
     const std::string link = found == machine.board_links.end() ? "no link" : found->link.text();
     return "; check the cable of board " + device.place + ", " + link + ", and its power";

@@ -5,16 +5,16 @@
 #include <string>
 
 #include "core/device/device_name.hpp"
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 #include "sim_fpga/register_window.hpp"
 
 namespace lockstep {
 
 /// `device` is not simulated. Error: the registers cannot be mapped; for a linked device also: lockstep-board does not
 /// run, or its board does not answer or has no such motor.
-std::expected<RegisterWindow, std::string> open_window(const DeviceName& device, const MachineConfig& machine);
+std::expected<RegisterWindow, std::string> open_window(const DeviceName& device, const MachineSetup& machine);
 
 /// The end of a message about a linked device that does not answer: which cable to check.
-std::string link_remedy(const DeviceName& device, const MachineConfig& machine);
+std::string link_remedy(const DeviceName& device, const MachineSetup& machine);
 
 }  // namespace lockstep

@@ -33,7 +33,7 @@ std::string refusal_of(const struct stat& file) {
 
 }  // namespace
 
-std::filesystem::path position_file(const MachineConfig& machine, MotorIndex motor) {
+std::filesystem::path position_file(const MachineSetup& machine, MotorIndex motor) {
     const std::filesystem::path directory = machine.position_directory.empty()
                                                 ? position_directory(machine.name)
                                                 : std::filesystem::path(machine.position_directory);

@@ -9,11 +9,12 @@
 #include "core/axis/device/position_claim.hpp"
 #include "services/axis/position_document.hpp"
 #include "services/files/newest_file.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
 /// Returns DIRECTORY/AXIS.textproto. DIRECTORY comes from the machine's file, otherwise from the host.
-std::filesystem::path position_file(const MachineConfig& machine, MotorIndex motor);
+std::filesystem::path position_file(const MachineSetup& machine, MotorIndex motor);
 
 struct ReadPosition {
     KeptOrNot kept;

@@ -53,14 +53,15 @@ std::expected<DeviceDriver, std::string> attach_driver(RegisterWindow window, co
 }
 
 std::expected<std::unique_ptr<DevicePort>, std::string> simulated_port(const MachineConfig& machine,
-                                                                       const MotorConfig& motor, Tick now) {
+                                                                       std::uint32_t domain, const MotorConfig& motor,
+                                                                       Tick now) {
     const RegisterWindow window = RegisterWindow::in_process();
     auto device = std::make_unique<SimulatedDevice>(window, plant_of(machine, motor), machine.tick_ns, now,
                                                     static_cast<std::uint64_t>(now.value));
     auto driver = attach_driver(window, machine, motor);
     if (!driver) { return std::unexpected(driver.error()); }
     if (!machine.workpiece) { return std::make_unique<WindowPort>(std::move(*driver), std::move(device)); }
-    auto touched = TouchedDevice::open(machine, motor_named(machine, motor.name).value(), now);
+    auto touched = TouchedDevice::open(machine, domain, motor_named(machine, motor.name).value(), now);
     if (!touched) { return std::unexpected(touched.error()); }
     return std::make_unique<WindowPort>(std::move(*driver), std::move(device), std::move(*touched));
 }

@@ -63,6 +63,7 @@ std::expected<DeviceDriver, std::string> attach_driver(RegisterWindow window, co
 /// The port to a device that is simulated in this process, powered up at `now`. Errors: those of attach_driver and
 /// TouchedDevice::open.
 std::expected<std::unique_ptr<DevicePort>, std::string> simulated_port(const MachineConfig& machine,
-                                                                       const MotorConfig& motor, Tick now);
+                                                                       std::uint32_t domain, const MotorConfig& motor,
+                                                                       Tick now);
 
 }  // namespace lockstep

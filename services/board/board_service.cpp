@@ -22,7 +22,7 @@ namespace lockstep {
 namespace {
 
 /// How many motors of a board the machine has: one more than the greatest number.
-unsigned motors_of_board(const MachineConfig& machine, const std::string& board) {
+unsigned motors_of_board(const MachineSetup& machine, const std::string& board) {
     unsigned motors = 0;
     for (const MotorConfig& motor : motors_of(machine)) {
         if (motor.device.is_of_board(board)) { motors = std::max(motors, motor.device.number + 1); }
@@ -30,7 +30,7 @@ unsigned motors_of_board(const MachineConfig& machine, const std::string& board)
     return motors;
 }
 
-std::expected<std::vector<RegisterWindow>, std::string> make_windows(const MachineConfig& machine,
+std::expected<std::vector<RegisterWindow>, std::string> make_windows(const MachineSetup& machine,
                                                                      const std::string& board) {
     std::vector<RegisterWindow> windows;
     for (unsigned motor = 0; motor < motors_of_board(machine, board); ++motor) {
@@ -62,7 +62,7 @@ private:
     std::chrono::nanoseconds reported_ = monotonic_now();
 };
 
-int run(const MachineConfig& machine, const BoardLinkConfig& board) {
+int run(const MachineSetup& machine, const BoardLinkConfig& board) {
     StopSignal stop;
     const EndGuard guard(stop);
     for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
@@ -89,7 +89,7 @@ int run(const MachineConfig& machine, const BoardLinkConfig& board) {
 int serve_board(const BoardOptions& options) {
     const auto loaded = load_machine(options.machine_file);
     if (!loaded) { return end_with_bad_input(to_text(options.machine_file, loaded.error())); }
-    const MachineConfig& machine = loaded->config;
+    const MachineSetup& machine = loaded->config;
     const auto board = std::ranges::find(machine.board_links, options.board, &BoardLinkConfig::name);
     if (board == machine.board_links.end()) {
         return end_with_bad_input(options.machine_file + ": no board \"" + options.board + "\" with a link");

@@ -37,7 +37,7 @@ std::expected<CoordinatorNetwork, std::string> CoordinatorNetwork::open(const Se
 }
 
 /// Receiving allocates no memory after a stall either, when more messages wait than ever before.
-CoordinatorNetwork::CoordinatorNetwork(const MachineConfig& machine, std::unique_ptr<Link> link)
+CoordinatorNetwork::CoordinatorNetwork(const MachineSetup& machine, std::unique_ptr<Link> link)
     : motors_(MotorSet::first(motor_count(machine))), link_(std::move(link)) {
     received_.states.reserve(Reader<AxisState>::most_waiting(motor_count(machine)));
     received_.healths.reserve(Reader<AxisHealth>::most_waiting(motor_count(machine)));

@@ -37,7 +37,7 @@ struct CoordinatorReceived {
 class CoordinatorNetwork {
 public:
     struct Setup {
-        MachineConfig machine;
+        MachineSetup machine;
         MachineClock clock;
         Membership membership;
     };
@@ -68,7 +68,7 @@ public:
 
 private:
     using Link = WatchedLink<CoordinatorLink>;
-    CoordinatorNetwork(const MachineConfig& machine, std::unique_ptr<Link> link);
+    CoordinatorNetwork(const MachineSetup& machine, std::unique_ptr<Link> link);
     Reception look(const CoordinatorLink& link, Duty duty);
 
     MotorSet motors_;  // all of the machine

@@ -52,9 +52,8 @@ void report_unwritten_values(const std::string& why) {
 
 class CoordinatorService {
 public:
-    CoordinatorService(const MachineConfig& machine, Identity identity, CoordinatorNetwork network,
-                       RevisedValues values, std::unique_ptr<RecordSink> sink, std::optional<OnTakeover> standby,
-                       MakeRows make_rows)
+    CoordinatorService(const MachineSetup& machine, Identity identity, CoordinatorNetwork network, RevisedValues values,
+                       std::unique_ptr<RecordSink> sink, std::optional<OnTakeover> standby, MakeRows make_rows)
         : machine_(machine),
           kinematics_(machine),
           clock_(machine.tick_ns, machine.timing.time_source),
@@ -311,7 +310,7 @@ private:
     static constexpr std::size_t kPartsAtOnce = 4;   // about 3000 blocks, which take 1 ms
     static constexpr std::size_t kMostWaiting = 64;  // as many as the topic keeps
 
-    MachineConfig machine_;
+    MachineSetup machine_;
     Kinematics kinematics_;
     MachineClock clock_;
     Coordinator coordinator_;
@@ -338,7 +337,7 @@ private:
 };
 
 /// Chooses where programs are stored. The LAI method plans a program as a whole, so it keeps it in memory.
-MakeRows rows_of(const MachineConfig& machine, std::int64_t limit_mb) {
+MakeRows rows_of(const MachineSetup& machine, std::int64_t limit_mb) {
     constexpr std::uint64_t kBytesPerMB = 1'000'000;
     if (coordination_of(machine).plans_whole) {
         return [](std::size_t width) { return std::make_unique<MemoryRows>(width, kMaxProgramBlocks); };
@@ -350,7 +349,7 @@ MakeRows rows_of(const MachineConfig& machine, std::int64_t limit_mb) {
     };
 }
 
-int run(const CoordinatorServiceOptions& options, const MachineConfig& machine, RevisedValues values) {
+int run(const CoordinatorServiceOptions& options, const MachineSetup& machine, RevisedValues values) {
     StopSignal stop;
     const EndGuard guard(stop);
     for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
@@ -394,7 +393,7 @@ int run(const CoordinatorServiceOptions& options, const MachineConfig& machine, 
 int serve_coordinator(const CoordinatorServiceOptions& options) {
     const auto loaded = load_machine(options.machine_file);
     if (!loaded) { return end_with_bad_input(to_text(options.machine_file.string(), loaded.error())); }
-    const MachineConfig& machine = loaded->config;
+    const MachineSetup& machine = loaded->config;
     if (options.standby && machine.timing.time_source == TimeSource::Network) {
         return end_with_bad_input(
             "--standby: the machine's time_source is NETWORK, so its time is the coordinator's own clock, and "

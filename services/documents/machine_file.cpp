@@ -10,7 +10,7 @@
 
 namespace lockstep {
 
-std::expected<MachineConfig, Diagnostics> parse_machine(std::string_view text) {
+std::expected<MachineSetup, Diagnostics> parse_machine(std::string_view text) {
     TextSource source;
     proto::Machine message;
     if (const Diagnostics errors = source.parse(text, message); !errors.empty()) { return std::unexpected(errors); }
@@ -21,19 +21,19 @@ std::expected<MachineConfig, Diagnostics> parse_machine(std::string_view text) {
     return std::move(draft.machine);
 }
 
-std::expected<MachineConfig, Diagnostics> load_machine_file(const std::filesystem::path& path) {
+std::expected<MachineSetup, Diagnostics> load_machine_file(const std::filesystem::path& path) {
     const auto text = read_text_file(path);
     if (!text) { return std::unexpected(Diagnostics{text.error()}); }
     return parse_machine(*text);
 }
 
-std::string machine_text(const MachineConfig& machine) {
+std::string machine_text(const MachineSetup& machine) {
     std::string text;
     google::protobuf::TextFormat::PrintToString(machine_to_proto(machine), &text);
     return text;
 }
 
-std::uint64_t config_hash(const MachineConfig& machine) {
+std::uint64_t config_hash(const MachineSetup& machine) {
     proto::Machine message = machine_to_proto(machine);
     message.clear_web();  // not a part of the machine; it may differ between hosts
     return std::max<std::uint64_t>(fnv1a(message.SerializeAsString()), 1);

@@ -201,7 +201,7 @@ void check_web(const WebConfig& web, ProblemList& problems) {
 }
 
 /// Different hosts have different clocks, and cannot exchange messages over lo.
-void check_hosts(const MachineConfig& machine, ProblemList& problems) {
+void check_hosts(const MachineSetup& machine, ProblemList& problems) {
     problems.require(machine.coordinator_host.empty() || is_host_name(machine.coordinator_host), "coordinator_host",
                      "coordinator_host is \"" + machine.coordinator_host +
                          "\"; it must be the name of a host: letters, digits, - and .");
@@ -220,7 +220,7 @@ void check_hosts(const MachineConfig& machine, ProblemList& problems) {
 
 }  // namespace
 
-std::vector<Problem> machine_problems(const MachineConfig& machine) {
+std::vector<Problem> machine_problems(const MachineSetup& machine) {
     ProblemList problems;
     problems.require(
         is_machine_name(machine.name), "name",

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
@@ -24,7 +24,7 @@ struct Problem {
 };
 
 /// Checks all keys outside the axes, such as timing and network.
-std::vector<Problem> machine_problems(const MachineConfig& machine);
+std::vector<Problem> machine_problems(const MachineSetup& machine);
 
 /// Checks the keys of one axis, and that no axis before it has the same name.
 std::vector<Problem> axis_problems(const MachineConfig& machine, std::size_t axis);
@@ -44,7 +44,7 @@ std::vector<Problem> correction_problems(const MachineConfig& machine);
 std::vector<Problem> backlash_problems(const MachineConfig& machine);
 
 /// Checks the boards behind links, and the motors whose devices they have, after all boards were found sound.
-std::vector<Problem> board_link_problems(const MachineConfig& machine);
+std::vector<Problem> board_link_problems(const MachineSetup& machine);
 
 /// Checks which motors move which axes, after all axes and motors were found sound.
 std::vector<Problem> kinematics_problems(const MachineConfig& machine);

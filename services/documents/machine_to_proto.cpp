@@ -7,7 +7,7 @@
 namespace lockstep {
 namespace {
 
-void write_timing(const MachineConfig& machine, proto::Timing& message) {
+void write_timing(const MachineSetup& machine, proto::Timing& message) {
     const ProtocolTiming& timing = machine.timing;
     message.set_slot_us(timing.slot_us);
     message.set_stall_slots(timing.stall_slots);
@@ -244,7 +244,7 @@ void write_axis(const AxisConfig& axis, proto::Axis& message) {
 
 }  // namespace
 
-proto::Machine machine_to_proto(const MachineConfig& machine) {
+proto::Machine machine_to_proto(const MachineSetup& machine) {
     proto::Machine message;
     message.set_name(machine.name);
     message.set_tick_ns(machine.tick_ns);

@@ -14,15 +14,15 @@ std::string_view without_domain(std::string_view host) { return host.substr(0, h
 
 bool is_placed(const std::string& where, std::string_view host) { return where.empty() || same_host(where, host); }
 
-std::string names_of(const MachineConfig& machine, const std::vector<MotorIndex>& axes) {
+std::string names_of(const MachineSetup& machine, const std::vector<MotorIndex>& axes) {
     std::string names;
     for (const MotorIndex i : axes) { names += (names.empty() ? "" : " ") + motor_name(machine, i); }
     return names;
 }
 
-const char* kind_of(const MachineConfig& machine) { return machine.boards.empty() ? "axis" : "axis or board"; }
+const char* kind_of(const MachineSetup& machine) { return machine.boards.empty() ? "axis" : "axis or board"; }
 
-std::string places_of(const MachineConfig& machine) {
+std::string places_of(const MachineSetup& machine) {
     std::string places;
     for (const MotorConfig& axis : motors_of(machine)) {
         places += " " + axis.name + " (" + (axis.host.empty() ? "no host" : axis.host) + ")";
@@ -37,7 +37,7 @@ bool same_host(std::string_view one, std::string_view other) {
     return both_whole ? same_name(one, other) : same_name(without_domain(one), without_domain(other));
 }
 
-std::vector<std::string> hosts_of(const MachineConfig& machine) {
+std::vector<std::string> hosts_of(const MachineSetup& machine) {
     std::vector<std::string> hosts;
     const auto add = [&](const std::string& host) {
         const auto is_it = [&](const std::string& known) { return same_host(known, host); };
@@ -48,7 +48,7 @@ std::vector<std::string> hosts_of(const MachineConfig& machine) {
     return hosts;
 }
 
-Placement placed_on(const MachineConfig& machine, std::string_view host) {
+Placement placed_on(const MachineSetup& machine, std::string_view host) {
     Placement placement{.coordinator = is_placed(machine.coordinator_host, host)};
     const std::vector<MotorConfig> motors = motors_of(machine);
     for (const MotorIndex i : motor_indices(motors.size())) {
@@ -57,7 +57,7 @@ Placement placed_on(const MachineConfig& machine, std::string_view host) {
     return placement;
 }
 
-std::expected<MotorIndex, std::string> axis_to_run(const MachineConfig& machine, std::string_view named,
+std::expected<MotorIndex, std::string> axis_to_run(const MachineSetup& machine, std::string_view named,
                                                    std::string_view host) {
     std::vector<MotorIndex> fit;
     const std::vector<MotorConfig> motors = motors_of(machine);

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
@@ -16,7 +16,7 @@ namespace lockstep {
 bool same_host(std::string_view one, std::string_view other);
 
 /// Returns the hosts that a configuration names, each once.
-std::vector<std::string> hosts_of(const MachineConfig& machine);
+std::vector<std::string> hosts_of(const MachineSetup& machine);
 
 /// The processes of a host: those placed on it, and those without a host in the configuration.
 struct Placement {
@@ -24,11 +24,11 @@ struct Placement {
     std::vector<MotorIndex> axes;  // those that these processes serve
     bool empty() const { return !coordinator && axes.empty(); }
 };
-Placement placed_on(const MachineConfig& machine, std::string_view host);
+Placement placed_on(const MachineSetup& machine, std::string_view host);
 
 /// Returns the axis that a process on this host runs: the axis `named`, or, if `named` is empty, the only axis placed
 /// on this host. The error lists the axes.
-std::expected<MotorIndex, std::string> axis_to_run(const MachineConfig& machine, std::string_view named,
+std::expected<MotorIndex, std::string> axis_to_run(const MachineSetup& machine, std::string_view named,
                                                    std::string_view host);
 
 }  // namespace lockstep

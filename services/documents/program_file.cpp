@@ -118,12 +118,12 @@ GcodeSetup gcode_setup(const MachineConfig& machine, const std::vector<double>& 
 }
 
 std::function<std::optional<std::string>(std::string_view name)> subroutines_of(
-    const MachineConfig& machine, std::vector<std::filesystem::path> directories) {
+    const MachineSetup& machine, std::vector<std::filesystem::path> directories) {
     if (!machine.subroutine_directory.empty()) { directories.emplace_back(machine.subroutine_directory); }
     return [directories = std::move(directories)](std::string_view name) { return read_subroutine(directories, name); };
 }
 
-GcodeSetup program_setup(const std::filesystem::path& path, const MachineConfig& machine,
+GcodeSetup program_setup(const std::filesystem::path& path, const MachineSetup& machine,
                          const std::vector<double>& start_mm, GcodeSwitches switches, const gcode::KeptValues& values) {
     GcodeSetup setup = gcode_setup(machine, start_mm, printable(path.filename().string()), switches);
     setup.values = values;
@@ -131,7 +131,7 @@ GcodeSetup program_setup(const std::filesystem::path& path, const MachineConfig&
     return setup;
 }
 
-GcodeSetup session_setup(const MachineConfig& machine, const std::string& name) {
+GcodeSetup session_setup(const MachineSetup& machine, const std::string& name) {
     constexpr std::int64_t kMaxRepeatedLines = 100'000;  // of one line, so that a sender is answered soon
     GcodeSetup setup = gcode_setup(machine, std::vector<double>(machine.axes.size()), name);
     setup.limits.repeated_lines = kMaxRepeatedLines;
@@ -140,7 +140,7 @@ GcodeSetup session_setup(const MachineConfig& machine, const std::string& name) 
 }
 
 std::expected<ProgramFile, Diagnostics> read_program_file(const std::filesystem::path& path,
-                                                          const MachineConfig& machine,
+                                                          const MachineSetup& machine,
                                                           const std::vector<double>& start_mm, GcodeSwitches switches,
                                                           const gcode::KeptValues& values) {
     if (!is_start_of(machine, start_mm)) {
@@ -156,7 +156,7 @@ std::expected<ProgramFile, Diagnostics> read_program_file(const std::filesystem:
     return ProgramFile{*std::move(text), std::move(setup), *std::move(reading)};
 }
 
-std::expected<Program, Diagnostics> load_gcode_file(const std::filesystem::path& path, const MachineConfig& machine,
+std::expected<Program, Diagnostics> load_gcode_file(const std::filesystem::path& path, const MachineSetup& machine,
                                                     const std::vector<double>& start_mm, GcodeSwitches switches) {
     auto file = read_program_file(path, machine, start_mm, switches);
     if (!file) { return std::unexpected(file.error()); }

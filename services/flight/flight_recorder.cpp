@@ -99,7 +99,7 @@ void FlightRecorder::write() {
         fmt::format("incident ({}): the notes of the time before it are in {}", name_of(reason), how_to_read(*file)));
 }
 
-std::unique_ptr<FlightLog> open_flight(const MachineConfig& machine, const std::string& axis, Identity identity) {
+std::unique_ptr<FlightLog> open_flight(const MachineSetup& machine, const std::string& axis, Identity identity) {
     const FlightConfig& config = machine.record.flight;
     if (!config.kept) { return std::make_unique<NoFlight>(); }
     const FlightSource source{.machine = machine.name,

@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/machine.hpp"
 #include "services/flight/flight_ring.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
@@ -40,7 +40,7 @@ private:
 
 /// Opens the flight recorder of a process as the machine's file configures it. `axis` is empty for the coordinator. If
 /// that fails, it logs the reason and the process keeps no notes.
-std::unique_ptr<FlightLog> open_flight(const MachineConfig& machine, const std::string& axis, Identity identity);
+std::unique_ptr<FlightLog> open_flight(const MachineSetup& machine, const std::string& axis, Identity identity);
 
 /// The result of saving the rings of dead processes.
 struct LeftRings {

@@ -54,7 +54,7 @@ void remove_oldest(const FlightSource& source) {
 
 bool write_events(const FlightSnapshot& snapshot, const IncidentMark& mark, LogWriter& log) {
     const FlightSource& source = snapshot.source;
-    const MachineConfig machine = parse_machine(source.config).value_or(MachineConfig{.tick_ns = source.tick_ns});
+    const MachineSetup machine = parse_machine(source.config).value_or(MachineSetup{{.tick_ns = source.tick_ns}});
     const std::string channel = flight_channel(source.machine, source.process);
     const Ticks before{static_cast<std::int64_t>(machine.ticks_per_second()) * kFlightSeconds};
     bool written = log.write_message(channel, utime_of(mark.tick, source.tick_ns), to_lcm(source, mark));
@@ -108,7 +108,7 @@ std::vector<fs::path> incident_files(const fs::path& directory) {
     return files;
 }
 
-fs::path incident_directory(const MachineConfig& machine) { return own_log_directory(machine) / "incidents"; }
+fs::path incident_directory(const MachineSetup& machine) { return own_log_directory(machine) / "incidents"; }
 
 std::int64_t wall_clock_us() {
     return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())

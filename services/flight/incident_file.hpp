@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "services/flight/flight_messages.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
@@ -27,7 +28,7 @@ std::expected<std::filesystem::path, std::string> write_incident(const FlightSna
 std::vector<std::filesystem::path> incident_files(const std::filesystem::path& directory);
 
 /// Where this host's processes of the machine write their incident files.
-std::filesystem::path incident_directory(const MachineConfig& machine);
+std::filesystem::path incident_directory(const MachineSetup& machine);
 
 /// Microseconds since 1970, by this host's clock.
 std::int64_t wall_clock_us();

@@ -36,7 +36,7 @@ std::uint64_t drawn_number() {
 /// up again, and the slide stays where it is.
 class Board {
 public:
-    Board(const FpgaOptions& options, MakeDevice make, const MotorConfig& motor, const MachineConfig& machine)
+    Board(const FpgaOptions& options, MakeDevice make, const MotorConfig& motor, const MachineSetup& machine)
         : options_(options),
           make_(make),
           tick_ns_(machine.tick_ns),
@@ -58,8 +58,8 @@ public:
     }
 
     /// Error: that of TouchedDevice::open.
-    std::expected<void, std::string> touch_work(const MachineConfig& machine, MotorIndex motor) {
-        auto touched = TouchedDevice::open(machine, motor, clock_.now());
+    std::expected<void, std::string> touch_work(const MachineSetup& machine, MotorIndex motor) {
+        auto touched = TouchedDevice::open(machine, machine.network.domain, motor, clock_.now());
         if (!touched) { return std::unexpected(touched.error()); }
         touched_.emplace(std::move(*touched));
         return {};
@@ -93,7 +93,7 @@ private:
 std::expected<Board, std::string> set_up(const FpgaOptions& options, MakeDevice make) {
     const auto loaded = load_machine(options.machine_file);
     if (!loaded) { return std::unexpected(to_text(options.machine_file, loaded.error())); }
-    const MachineConfig& machine = loaded->config;
+    const MachineSetup& machine = loaded->config;
     const auto motor = motor_named(machine, options.axis);
     if (!motor) { return std::unexpected(options.machine_file + ": no axis \"" + options.axis + "\""); }
     Board board(options, make, motors_of(machine)[*motor], machine);

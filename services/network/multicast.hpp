@@ -8,7 +8,7 @@
 #include <expected>
 #include <string>
 
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 

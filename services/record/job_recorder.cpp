@@ -14,7 +14,7 @@
 
 namespace lockstep {
 
-JobRecorder::JobRecorder(const MachineConfig& machine, Identity coordinator, RecordSink& sink)
+JobRecorder::JobRecorder(const MachineSetup& machine, Identity coordinator, RecordSink& sink)
     : machine_(machine),
       coordinator_(coordinator),
       sink_(sink),

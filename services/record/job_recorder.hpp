@@ -9,13 +9,14 @@
 #include "core/protocol/axis_health.hpp"
 #include "services/record/record_marker.hpp"
 #include "services/record/record_sink.hpp"
+#include "services/setup/machine_setup.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep {
 
 class JobRecorder {
 public:
-    JobRecorder(const MachineConfig& machine, Identity coordinator, RecordSink& sink);
+    JobRecorder(const MachineSetup& machine, Identity coordinator, RecordSink& sink);
     /// Call it in each loop, before its events.
     void note(Tick now) { marker_.note("", coordinator_, published_, now); }
     /// Notes the counts that an axis has published.

@@ -12,7 +12,7 @@
 namespace lockstep {
 namespace {
 
-QueuedSink::WriteLoss loss_teller(const MachineConfig& machine, const std::string& axis) {
+QueuedSink::WriteLoss loss_teller(const MachineSetup& machine, const std::string& axis) {
     return [machine = machine.name, axis](RecordSink& log, const RecordLoss& loss) {
         record_loss_t message{};
         message.utime = loss.last_utime;
@@ -27,12 +27,12 @@ QueuedSink::WriteLoss loss_teller(const MachineConfig& machine, const std::strin
 
 }  // namespace
 
-std::filesystem::path own_log_directory(const MachineConfig& machine) {
+std::filesystem::path own_log_directory(const MachineSetup& machine) {
     return machine.record.directory.empty() ? record_directory(machine.name)
                                             : std::filesystem::path(machine.record.directory);
 }
 
-std::expected<std::unique_ptr<RecordSink>, std::string> open_own_log(const MachineConfig& machine,
+std::expected<std::unique_ptr<RecordSink>, std::string> open_own_log(const MachineSetup& machine,
                                                                      const std::string& axis) {
     constexpr std::uint64_t kBytesPerMB = 1'000'000;
     auto log =
@@ -48,7 +48,7 @@ std::expected<std::unique_ptr<RecordSink>, std::string> open_own_log(const Machi
                                         mark_channel(machine.name, axis));
 }
 
-std::string lost_records_text(const MachineConfig& machine, std::uint64_t lost) {
+std::string lost_records_text(const MachineSetup& machine, std::uint64_t lost) {
     const std::string failed = machine.record.own_logs ? fmt::format("written to {} (make room on its disk)",
                                                                      own_log_directory(machine).string())
                                                        : "sent (with record { own_logs: true } a disk keeps them)";

@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 

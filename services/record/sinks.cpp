@@ -5,7 +5,7 @@
 
 namespace lockstep {
 
-std::unique_ptr<RecordSink> open_record(const MachineConfig& machine, const std::string& axis, bool published) {
+std::unique_ptr<RecordSink> open_record(const MachineSetup& machine, const std::string& axis, bool published) {
     std::vector<std::unique_ptr<RecordSink>> sinks;
     if (published) {
         auto publisher = LcmPublisher::open(machine.network);

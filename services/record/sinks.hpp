@@ -68,6 +68,6 @@ private:
 
 /// Opens a process's record: the network if `published`, and its own log if the machine's file asks for one. `axis` is
 /// the axis's name, empty for the coordinator. If a sink cannot be opened, the function omits it and logs the reason.
-std::unique_ptr<RecordSink> open_record(const MachineConfig& machine, const std::string& axis, bool published);
+std::unique_ptr<RecordSink> open_record(const MachineSetup& machine, const std::string& axis, bool published);
 
 }  // namespace lockstep

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 

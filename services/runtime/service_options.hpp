@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "core/machine.hpp"
 #include "services/runtime/log.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
@@ -35,7 +35,7 @@ struct ServiceOptions {
 
 /// The period at which a service checks for messages. It is a fraction of a slot, so that sampling takes only a small
 /// part of a hop (core/protocol/rules.hpp). Shared memory delivers at once, so sampling may then take a larger part.
-inline std::chrono::nanoseconds loop_period(const MachineConfig& machine) {
+inline std::chrono::nanoseconds loop_period(const MachineSetup& machine) {
     const int loops_per_slot = machine.network.one_host ? 2 : 4;
     const std::chrono::nanoseconds period{machine.timing.slot_us * 1000 / loops_per_slot};
     return std::min<std::chrono::nanoseconds>(period, std::chrono::milliseconds{5});

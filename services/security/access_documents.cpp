@@ -14,7 +14,7 @@ std::string element(const char* name, const std::string& content) {
     return std::string("<") + name + ">" + content + "</" + name + ">\n";
 }
 
-std::string domain_of(const MachineConfig& machine) {
+std::string domain_of(const MachineSetup& machine) {
     return element("domains", element("id", std::to_string(machine.network.domain)));
 }
 
@@ -53,7 +53,7 @@ std::optional<std::chrono::sys_seconds> time_in(const std::string& xml, const st
 
 }  // namespace
 
-std::string governance_xml(const MachineConfig& machine) {
+std::string governance_xml(const MachineSetup& machine) {
     const std::string topic_rule =
         element("topic_rule", element("topic_expression", "*") + element("enable_discovery_protection", "true") +
                                   element("enable_liveliness_protection", "true") +
@@ -70,14 +70,14 @@ std::string governance_xml(const MachineConfig& machine) {
     return kHead + element("domain_access_rules", domain_rule) + "</dds>\n";
 }
 
-std::string allow_rule_xml(const MachineConfig& machine, const Member& member) {
+std::string allow_rule_xml(const MachineSetup& machine, const Member& member) {
     const std::string written =
         rule("publish", member, &TopicRights::writers, {partition_of(machine.name, member.axis)});
     const std::string read = rule("subscribe", member, &TopicRights::readers, read_partitions(machine.name));
     return element("allow_rule", domain_of(machine) + written + read);
 }
 
-std::string permissions_xml(const MachineConfig& machine, const Member& member, const std::string& subject,
+std::string permissions_xml(const MachineSetup& machine, const Member& member, const std::string& subject,
                             const Period& valid) {
     const std::string grant =
         element("subject_name", subject) +

@@ -18,7 +18,7 @@ constexpr mode_t kForbidden = S_IRWXO | S_IWGRP | S_IXGRP;  // the services' gro
 /// Checks one file after the other and notes the errors.
 class Inspection {
 public:
-    Inspection(const MachineConfig& machine, const Member& member) : machine_(machine), member_(member) {}
+    Inspection(const MachineSetup& machine, const Member& member) : machine_(machine), member_(member) {}
 
     /// Returns the text; empty if the file cannot be read.
     std::string read(const fs::path& path) {
@@ -102,7 +102,7 @@ private:
         std::string what;
         Period valid;
     };
-    const MachineConfig& machine_;
+    const MachineSetup& machine_;
     const Member& member_;
     MemberCheck check_;
     std::optional<Dated> latest_;    // the file that is valid last
@@ -111,7 +111,7 @@ private:
 
 }  // namespace
 
-MemberCheck check_member(const MachineConfig& machine, const fs::path& directory, const Member& member,
+MemberCheck check_member(const MachineSetup& machine, const fs::path& directory, const Member& member,
                          std::chrono::sys_seconds now) {
     Inspection look(machine, member);
     const Credentials files = credentials_in(directory, member);
@@ -146,7 +146,7 @@ MemberCheck check_member(const MachineConfig& machine, const fs::path& directory
     return look.done();
 }
 
-std::expected<Admission, std::string> admit(const MachineConfig& machine, const Member& member) {
+std::expected<Admission, std::string> admit(const MachineSetup& machine, const Member& member) {
     Admission admission{.membership = {.axis = member.axis, .credentials = {}}, .until = {}};
     if (!machine.security.enabled()) { return admission; }
     keep_openssl_alive();

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "core/machine.hpp"
 #include "services/security/certificates.hpp"
 #include "services/security/rights.hpp"
+#include "services/setup/machine_setup.hpp"
 #include "services/wire/dds/participant.hpp"
 
 namespace lockstep {
@@ -25,7 +25,7 @@ struct MemberCheck {
     std::optional<std::chrono::sys_seconds> until;  // when the first of the member's files expires
 };
 
-MemberCheck check_member(const MachineConfig& machine, const std::filesystem::path& directory, const Member& member,
+MemberCheck check_member(const MachineSetup& machine, const std::filesystem::path& directory, const Member& member,
                          std::chrono::sys_seconds now);
 
 struct Admission {
@@ -35,6 +35,6 @@ struct Admission {
 
 /// Admits a member with the files that the machine's configuration names. Without security no files are needed. Error:
 /// the first problem.
-std::expected<Admission, std::string> admit(const MachineConfig& machine, const Member& member);
+std::expected<Admission, std::string> admit(const MachineSetup& machine, const Member& member);
 
 }  // namespace lockstep

@@ -35,7 +35,7 @@ private:
     std::expected<void, std::string> done_;
 };
 
-void write_member(Writing& writing, const MachineConfig& machine, const Member& member, const Signer& identity_ca,
+void write_member(Writing& writing, const MachineSetup& machine, const Member& member, const Signer& identity_ca,
                   const Signer& permissions_ca, const Period& valid) {
     const auto signer = issue({machine.name, member.name}, identity_ca, valid);
     if (!signer) { return writing.file(member.name + ".pem", std::unexpected(signer.error()), kPublic); }
@@ -46,7 +46,7 @@ void write_member(Writing& writing, const MachineConfig& machine, const Member& 
                  sign(permissions_xml(machine, member, facts->subject, facts->valid), permissions_ca), kPublic);
 }
 
-std::expected<void, std::string> write_all(const MachineConfig& machine, const fs::path& directory,
+std::expected<void, std::string> write_all(const MachineSetup& machine, const fs::path& directory,
                                            const Period& valid) {
     const auto identity_ca = make_authority({machine.name, "identities"}, valid);
     const auto permissions_ca = make_authority({machine.name, "permissions"}, valid);
@@ -114,7 +114,7 @@ Credentials credentials_in(const fs::path& directory, const Member& member) {
             .permissions = directory / (member.name + ".p7s")};
 }
 
-std::expected<MadeKeys, std::string> make_keys(const MachineConfig& machine, const fs::path& directory,
+std::expected<MadeKeys, std::string> make_keys(const MachineSetup& machine, const fs::path& directory,
                                                const Period& valid, bool replace) {
     std::error_code error;
     const bool is_occupied = fs::exists(directory, error) && !fs::is_empty(directory, error);

@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <string>
 
-#include "core/machine.hpp"
 #include "services/security/certificates.hpp"
 #include "services/security/rights.hpp"
+#include "services/setup/machine_setup.hpp"
 #include "services/wire/dds/participant.hpp"
 
 namespace lockstep {
@@ -29,7 +29,7 @@ struct MadeKeys {
 
 /// Makes the keys of all members_of(machine), either completely or not at all. Error: the directory is not empty and
 /// `replace` is not set; or the file and the reason.
-std::expected<MadeKeys, std::string> make_keys(const MachineConfig& machine, const std::filesystem::path& directory,
+std::expected<MadeKeys, std::string> make_keys(const MachineSetup& machine, const std::filesystem::path& directory,
                                                const Period& valid, bool replace);
 
 }  // namespace lockstep

@@ -18,11 +18,11 @@ TopicRights of(std::vector<Role> writers, std::vector<Role> readers) {
 
 std::string_view name_of(Role role) { return pick_name({"coordinator", "axis", "client", "viewer"}, role); }
 
-Member axis_member(const MachineConfig& machine, MotorIndex motor) {
+Member axis_member(const MachineSetup& machine, MotorIndex motor) {
     return {"axis-" + motor_name(machine, motor), Axis, static_cast<std::uint32_t>(motor)};
 }
 
-std::vector<Member> members_of(const MachineConfig& machine) {
+std::vector<Member> members_of(const MachineSetup& machine) {
     std::vector<Member> members{coordinator_member(), standby_member()};
     for (const MotorIndex i : motor_indices(motor_count(machine))) { members.push_back(axis_member(machine, i)); }
     members.push_back(client_member());

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
@@ -29,10 +29,10 @@ inline Member coordinator_member() { return {"coordinator", Role::Coordinator, {
 inline Member standby_member() { return {"standby", Role::Coordinator, {}}; }
 inline Member client_member() { return {"client", Role::Client, {}}; }
 inline Member viewer_member() { return {"viewer", Role::Viewer, {}}; }
-Member axis_member(const MachineConfig& machine, MotorIndex motor);
+Member axis_member(const MachineSetup& machine, MotorIndex motor);
 
 /// All possible members of a machine.
-std::vector<Member> members_of(const MachineConfig& machine);
+std::vector<Member> members_of(const MachineSetup& machine);
 
 struct TopicRights {
     const char* topic;

@@ -12,7 +12,7 @@ std::optional<ExpiryWatch> own_expiry;  // of this process, which joins once
 
 }  // namespace
 
-std::expected<Membership, std::string> admit_service(const MachineConfig& machine, const Member& member) {
+std::expected<Membership, std::string> admit_service(const MachineSetup& machine, const Member& member) {
     forward_dds_log([](const std::string& text) { log_warning("DDS: " + text); });
     auto admission = admit(machine, member);
     if (!admission) { return std::unexpected(admission.error()); }

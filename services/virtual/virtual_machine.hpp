@@ -60,7 +60,7 @@ public:
     std::optional<std::size_t> owner() const { return processes_.owner(); }
 
     Tick now() const { return now_; }
-    const MachineConfig& machine() const { return options_.machine; }
+    const MachineSetup& machine() const { return options_.machine; }
     /// The newest state that the client has received.
     const std::optional<MachineState>& state() const { return client_.state(); }
     const std::vector<std::optional<AxisState>>& axis_states() const { return client_.axis_states(); }

@@ -7,6 +7,7 @@
 
 #include "core/coordinator/coordinator.hpp"
 #include "core/flight/flight_event.hpp"
+#include "services/setup/machine_setup.hpp"
 #include "services/virtual/late_link.hpp"
 #include "services/virtual/virtual_clock.hpp"
 #include "services/virtual/virtual_network.hpp"
@@ -14,7 +15,7 @@
 namespace lockstep {
 
 struct VirtualOptions {
-    MachineConfig machine;
+    MachineSetup machine;
     std::uint64_t config_hash = 1;
     std::uint64_t seed = 1;
     NetworkBehaviour network;

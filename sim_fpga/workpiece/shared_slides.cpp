@@ -59,12 +59,12 @@ private:
 
 }  // namespace
 
-std::string SharedSlides::name_of(const MachineConfig& machine) {
-    return "/lockstep-slides-" + machine.name + "-" + std::to_string(machine.network.domain);
+std::string SharedSlides::name_of(const std::string& machine, std::uint32_t domain) {
+    return "/lockstep-slides-" + machine + "-" + std::to_string(domain);
 }
 
-std::expected<SharedSlides, std::string> SharedSlides::open(const MachineConfig& machine) {
-    const std::string name = name_of(machine);
+std::expected<SharedSlides, std::string> SharedSlides::open(const MachineConfig& machine, std::uint32_t domain) {
+    const std::string name = name_of(machine.name, domain);
     for (int tries = 0; tries < kMaxTries; ++tries) {
         const int file = ::shm_open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0660);
         if (file < 0) { return cannot(name, "open it"); }

@@ -19,10 +19,11 @@ namespace lockstep {
 
 class SharedSlides {
 public:
-    /// Creates the memory if it is missing. Error: it cannot be created or mapped.
-    static std::expected<SharedSlides, std::string> open(const MachineConfig& machine);
+    /// Creates the memory if it is missing. `domain`: of the machine's network; machines with one name may run in
+    /// several. Error: it cannot be created or mapped.
+    static std::expected<SharedSlides, std::string> open(const MachineConfig& machine, std::uint32_t domain);
     /// Its name, as of shm_open.
-    static std::string name_of(const MachineConfig& machine);
+    static std::string name_of(const std::string& machine, std::uint32_t domain);
 
     /// Whole steps since the slide's power-up.
     void publish(MotorIndex motor, std::int64_t steps) { word(motor).store(steps, std::memory_order_relaxed); }

@@ -7,9 +7,9 @@
 
 namespace lockstep {
 
-std::expected<TouchedDevice, std::string> TouchedDevice::open(const MachineConfig& machine, MotorIndex motor,
-                                                              Tick now) {
-    auto slides = SharedSlides::open(machine);
+std::expected<TouchedDevice, std::string> TouchedDevice::open(const MachineConfig& machine, std::uint32_t domain,
+                                                              MotorIndex motor, Tick now) {
+    auto slides = SharedSlides::open(machine, domain);
     if (!slides) { return std::unexpected(slides.error()); }
     return TouchedDevice(machine, motor, std::move(*slides), now);
 }

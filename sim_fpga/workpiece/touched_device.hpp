@@ -17,8 +17,9 @@ namespace lockstep {
 
 class TouchedDevice {
 public:
-    /// The device is at `now`. Error: that of SharedSlides::open.
-    static std::expected<TouchedDevice, std::string> open(const MachineConfig& machine, MotorIndex motor, Tick now);
+    /// The device is at `now`. `domain` and error: those of SharedSlides::open.
+    static std::expected<TouchedDevice, std::string> open(const MachineConfig& machine, std::uint32_t domain,
+                                                          MotorIndex motor, Tick now);
 
     /// Runs the device up to `until` by run(tick), which advances it and its plant.
     void advance(Tick until, Plant& plant, const std::function<void(Tick)>& run);

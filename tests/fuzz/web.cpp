@@ -24,7 +24,7 @@ void check(const Problem& problem) {
     require(text.size() <= kLongestRefusal_bytes, "a refusal is short, however long the request is");
 }
 
-void check(const JogOrder& order, const MachineConfig& machine) {
+void check(const JogOrder& order, const MachineSetup& machine) {
     AxisSet seen;
     for (const JogAxis& jog : order.jogs) {
         require(jog.axis < machine.axes.size() && !seen.contains(jog.axis), "each of the machine's axes once");
@@ -40,7 +40,7 @@ bool is_finite(const Letters& letters) {
     return std::ranges::all_of(letters, [](const auto& one) { return std::isfinite(one.second); });
 }
 
-void check(const Order& order, const MachineConfig& machine) {
+void check(const Order& order, const MachineSetup& machine) {
     if (const auto* jog = std::get_if<JogOrder>(&order)) { check(*jog, machine); }
     if (const auto* mdi = std::get_if<MdiOrder>(&order)) {
         const bool is_line = !mdi->line.empty() && mdi->line.find_first_of("\n\r") == std::string::npos;
@@ -63,7 +63,7 @@ void check(const Order& order, const MachineConfig& machine) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace lockstep;
     using namespace lockstep::web;
-    static const MachineConfig machine = two_axes();
+    static const MachineSetup machine = two_axes();
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     const std::size_t end = text.find('\n');
     const std::string_view body = end == text.npos ? std::string_view{} : text.substr(end + 1);

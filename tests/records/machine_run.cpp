@@ -25,7 +25,7 @@ std::string axis_text(const std::string& name, int steps_per_mm, int max_mm) {
            "plant { start_position_mm: 1.5 } }\n";
 }
 
-MachineConfig machine_of(const std::string& axes) {
+MachineSetup machine_of(const std::string& axes) {
     return parse_machine(
                "name: \"mill\" unassigned { spindle: IGNORE outputs: IGNORE coolant: IGNORE "
                "tool_change: GO_ON }\n" +
@@ -35,18 +35,18 @@ MachineConfig machine_of(const std::string& axes) {
 
 }  // namespace
 
-MachineConfig example_machine(const std::string& name) {
+MachineSetup example_machine(const std::string& name) {
     return load_machine_file("deploy/examples/" + name + ".textproto").value();
 }
 
-MachineConfig small_mill() {
+MachineSetup small_mill() {
     return machine_of(axis_text("X", 80, 200) + axis_text("Y", 80, 200) + axis_text("Z", 100, 60));
 }
 
-MachineConfig small_plotter() { return machine_of(axis_text("X", 80, 200) + axis_text("Y", 80, 200)); }
+MachineSetup small_plotter() { return machine_of(axis_text("X", 80, 200) + axis_text("Y", 80, 200)); }
 
-MachineConfig small_laser() {
-    MachineConfig machine = small_plotter();
+MachineSetup small_laser() {
+    MachineSetup machine = small_plotter();
     machine.outputs = {{.name = "laser",
                         .motor = "X",
                         .use = OutputUse::Spindle,
@@ -56,14 +56,14 @@ MachineConfig small_laser() {
     return machine;
 }
 
-MachineConfig with_camera(MachineConfig machine) {
+MachineSetup with_camera(MachineSetup machine) {
     machine.outputs.push_back(
         {.name = "camera", .motor = "Y", .channel = 2, .use = OutputUse::Places, .number = 0, .pulse_us = 50});
     return machine;
 }
 
-MachineConfig small_core_xy() {
-    MachineConfig machine = small_mill();
+MachineSetup small_core_xy() {
+    MachineSetup machine = small_mill();
     for (AxisConfig& axis : std::span(machine.axes).first(2)) {
         axis.homing.way = HomingWay::InPlace;
         axis.plant.start_position_mm = axis.homing.park_mm;
@@ -73,8 +73,8 @@ MachineConfig small_core_xy() {
     return read_again(machine);
 }
 
-MachineConfig small_gantry() {
-    MachineConfig machine = small_plotter();
+MachineSetup small_gantry() {
+    MachineSetup machine = small_plotter();
     AxisConfig& bridge = machine.axes[0];
     bridge.max_skew_mm = 2;
     bridge.homing.park_mm = 0;
@@ -84,9 +84,9 @@ MachineConfig small_gantry() {
     return read_again(machine);
 }
 
-MachineConfig read_again(const MachineConfig& machine) { return parse_machine(machine_text(machine)).value(); }
+MachineSetup read_again(const MachineSetup& machine) { return parse_machine(machine_text(machine)).value(); }
 
-MachineConfig slow_axis_machine() {
+MachineSetup slow_axis_machine() {
     return parse_machine(
                "name: \"slow\" tick_ns: 100000 axis { name: \"X\" steps_per_mm: 1000 start_velocity_mm_s: "
                "0.78 max_velocity_mm_s: 4 max_accel_mm_s2: 20 position_min_mm: 0 position_max_mm: 50 "
@@ -94,11 +94,11 @@ MachineConfig slow_axis_machine() {
         .value();
 }
 
-VirtualOptions options_of(const MachineConfig& machine) {
+VirtualOptions options_of(const MachineSetup& machine) {
     return {.machine = machine, .config_hash = config_hash(machine)};
 }
 
-VirtualOptions own_clocks(MachineConfig machine) {
+VirtualOptions own_clocks(MachineSetup machine) {
     machine.timing.time_source = TimeSource::Network;
     VirtualOptions options = options_of(machine);
     options.start = Tick{20'000'000};

@@ -10,38 +10,38 @@
 #include "clients/session/move_program.hpp"
 #include "clients/simulation/machine_recorder.hpp"
 #include "core/kinematics/motors.hpp"
-#include "core/machine.hpp"
 #include "core/program.hpp"
+#include "services/setup/machine_setup.hpp"
 #include "services/virtual/virtual_machine.hpp"
 #include "tests/records/record.hpp"
 
 namespace lockstep::records {
 
 /// A machine from deploy/examples.
-MachineConfig example_machine(const std::string& name);
+MachineSetup example_machine(const std::string& name);
 /// Axes X, Y and Z near their switches, so that homing is short. It has words for devices.
-MachineConfig small_mill();
+MachineSetup small_mill();
 /// Axes X and Y of small_mill().
-MachineConfig small_plotter();
+MachineSetup small_plotter();
 /// small_plotter() with a laser at X, whose power follows the speed, and a valve at Y, output 1 of programs.
-MachineConfig small_laser();
-MachineConfig with_camera(MachineConfig machine);  // M69 P0: pulses at places of Y
+MachineSetup small_laser();
+MachineSetup with_camera(MachineSetup machine);  // M69 P0: pulses at places of Y
 /// The same axes, moved by two belts: motors X and Y turn by their sum and their difference. It homes in place. Z is
 /// moved by a motor of its own.
-MachineConfig small_core_xy();
+MachineSetup small_core_xy();
 /// Motors X and X2 move axis X of small_plotter() together.
-MachineConfig small_gantry();
+MachineSetup small_gantry();
 /// One axis of 1000 steps/mm that a clock of 10 kHz drives.
-MachineConfig slow_axis_machine();
+MachineSetup slow_axis_machine();
 /// The machine as its file gives it, with the steps of axes that follow from those of their motors.
-MachineConfig read_again(const MachineConfig& machine);
-VirtualOptions options_of(const MachineConfig& machine);
+MachineSetup read_again(const MachineSetup& machine);
+VirtualOptions options_of(const MachineSetup& machine);
 /// Two boards whose clocks differ from the coordinator's.
-VirtualOptions own_clocks(MachineConfig machine);
+VirtualOptions own_clocks(MachineSetup machine);
 
 class MachineRun {
 public:
-    explicit MachineRun(const MachineConfig& machine) : MachineRun(options_of(machine)) {}
+    explicit MachineRun(const MachineSetup& machine) : MachineRun(options_of(machine)) {}
     explicit MachineRun(const VirtualOptions& options);
 
     VirtualMachine& vm() { return vm_; }

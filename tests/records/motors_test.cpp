@@ -129,7 +129,7 @@ TEST(AxesOfARecord, AboveTheirLimitsAreBadByName) {
 
     change_each<job_t>(record, [](job_t& job) {
         if (job.config.empty()) { return false; }
-        MachineConfig machine = parse_machine(job.config).value();
+        MachineSetup machine = parse_machine(job.config).value();
         machine.axes[0].max_velocity_mm_s = 90;
         for (std::size_t i = 0; i < 2; ++i) { machine.axes[i].motors[0].max_velocity_mm_s = 300; }
         job.config = machine_text(machine);

@@ -11,7 +11,7 @@ namespace lockstep::records {
 namespace {
 
 /// With a laser that follows the speed, and a lamp that M67 sets.
-MachineConfig with_lights(MachineConfig machine) {
+MachineSetup with_lights(MachineSetup machine) {
     machine.outputs = {{.name = "laser",
                         .motor = "X",
                         .use = OutputUse::Spindle,
@@ -22,7 +22,7 @@ MachineConfig with_lights(MachineConfig machine) {
 }
 
 /// Two lines of 20 mm with the laser, the second one with the lamp too, in which the motion is held.
-proto::AnalysisReport engraved(const MachineConfig& machine) {
+proto::AnalysisReport engraved(const MachineSetup& machine) {
     MachineRun run(with_lights(machine));
     run.home();
     run.begin("G21 G90\nG0 X8 Y8\nM4 S600 F1200\nG1 X28\nM67 E1 Q50\nG1 Y28\nM67 E1 Q0\nM5\nG0 X5 Y5\n");
@@ -38,7 +38,7 @@ proto::AnalysisReport engraved(const MachineConfig& machine) {
     return report;
 }
 
-class PowerOfARecord : public testing::TestWithParam<MachineConfig (*)()> {};
+class PowerOfARecord : public testing::TestWithParam<MachineSetup (*)()> {};
 
 TEST_P(PowerOfARecord, IsWhereTheWordsAskForIt) {
     const auto report = engraved(GetParam()());

@@ -143,8 +143,10 @@ def breaches(tree, document):
 
 
 def words(tree):
-    """Types in the last column of docs/words.md that core does not declare once: their name alone would not tell what they are."""
-    core = "\n".join((tree.root / f).read_text() for f in tree.files if f.startswith("core/") and f.endswith((".hpp", ".cpp")))
+    """Types in the last column of docs/words.md that core and services/setup do not declare once: their name alone would not
+    tell what they are."""
+    declaring = [f for f in tree.files if f.startswith(("core/", "services/setup/")) and f.endswith((".hpp", ".cpp"))]
+    core = "\n".join((tree.root / f).read_text() for f in declaring)
     cells = re.findall(r"\|([^|\n]*)\|$", (tree.root / "docs/words.md").read_text(), re.MULTILINE)
     types = dict.fromkeys(name for cell in cells for name in re.findall(r"`([A-Z]\w*)`", cell))
     for name in types:

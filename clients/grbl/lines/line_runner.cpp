@@ -18,7 +18,7 @@ void add_answers(std::vector<LineRunner::Answered>& answers, const std::vector<s
 }
 
 /// After this time the newest state shows the effect of an answered command.
-nanoseconds state_age(const MachineConfig& machine) { return std::chrono::microseconds{3 * machine.timing.slot_us}; }
+nanoseconds state_age(const MachineSetup& machine) { return std::chrono::microseconds{3 * machine.timing.slot_us}; }
 
 }  // namespace
 

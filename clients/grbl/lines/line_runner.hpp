@@ -25,7 +25,7 @@ namespace lockstep::grbl {
 
 class LineRunner {
 public:
-    LineRunner(const MachineConfig& machine, MachinePort& port)
+    LineRunner(const MachineSetup& machine, MachinePort& port)
         : machine_(machine), port_(port), hold_(port), stop_(port) {}
 
     /// Takes a request to run a line. The next request must come after the answer to this one.
@@ -72,7 +72,7 @@ private:
     void drop();
     void close();
 
-    MachineConfig machine_;
+    MachineSetup machine_;
     MachinePort& port_;
     struct Next {
         std::uint64_t request = 0;

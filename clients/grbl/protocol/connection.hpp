@@ -13,7 +13,7 @@
 namespace lockstep::grbl {
 
 struct Connection {
-    explicit Connection(const MachineConfig& the_machine) : machine(the_machine), lines(the_machine) {}
+    explicit Connection(const MachineSetup& the_machine) : machine(the_machine), lines(the_machine) {}
 
     /// A requested jog counts as Jog before the machine's state shows it.
     State state() const {
@@ -41,7 +41,7 @@ struct Connection {
         modes.is_aborted = true;
     }
 
-    MachineConfig machine;
+    MachineSetup machine;
     MachineView view;
     Modes modes;
     ReportOptions options;

@@ -33,7 +33,7 @@ std::optional<std::int32_t> sender_line_of(std::string_view line) {
 
 }  // namespace
 
-GcodeLines::GcodeLines(const MachineConfig& machine)
+GcodeLines::GcodeLines(const MachineSetup& machine)
     : machine_(machine), session_(session_setup(machine, "lines of a sender"), machine, kFirstMotion) {}
 
 bool GcodeLines::switch_off() {

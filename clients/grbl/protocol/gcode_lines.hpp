@@ -10,8 +10,8 @@
 
 #include "clients/grbl/protocol/errors.hpp"
 #include "core/gcode/session/gcode_session.hpp"
-#include "core/machine.hpp"
 #include "core/program.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep::grbl {
 
@@ -26,7 +26,7 @@ struct LineEffect {
 
 class GcodeLines {
 public:
-    explicit GcodeLines(const MachineConfig& machine);
+    explicit GcodeLines(const MachineSetup& machine);
 
     /// Restores the state with which every connection begins. Keeps the offsets.
     void reset() { session_.reset(); }
@@ -54,7 +54,7 @@ private:
     bool rests_before(const SessionLine& line) const;
     double seconds_of(const SessionLine& line) const;
 
-    MachineConfig machine_;
+    MachineSetup machine_;
     GcodeSession session_;
 };
 

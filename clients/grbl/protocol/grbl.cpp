@@ -37,7 +37,7 @@ std::string capitals(std::string_view text) {
 
 }  // namespace
 
-Grbl::Grbl(const MachineConfig& machine, std::string version)
+Grbl::Grbl(const MachineSetup& machine, std::string version)
     : shared_(machine), gcode_(shared_), system_(shared_, std::move(version)) {}
 
 void Grbl::greet() {

@@ -22,7 +22,7 @@ inline constexpr const char* kGreeting = "Grbl 1.1h ['$' for help]";
 class Grbl {
 public:
     /// `version`: Lockstep's version, for $I.
-    Grbl(const MachineConfig& machine, std::string version);
+    Grbl(const MachineSetup& machine, std::string version);
     Grbl(const Grbl&) = delete;  // its parts refer to it
     Grbl& operator=(const Grbl&) = delete;
 
@@ -34,7 +34,7 @@ public:
     /// Sets the current state of the machine.
     void see(const MachineView& view);
     /// Sets the configuration that the machine will have when it is next brought up, with the kept settings.
-    void see_next(const MachineConfig& next) { system_.see_next(next); }
+    void see_next(const MachineSetup& next) { system_.see_next(next); }
     /// Takes the answer to a request. Ignores the answer to a request that was given up.
     void answer(std::uint64_t number, const Answer& answer);
     /// The jog that was begun is over.

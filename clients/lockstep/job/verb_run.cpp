@@ -68,7 +68,7 @@ std::expected<Start, Failure> reach_start(const RunOptions& options) {
 }
 
 /// Reads the whole program for the machine's position, or with --from-line for the position at its first run.
-std::expected<ProgramFile, Failure> read_file(const RunOptions& options, const MachineConfig& machine,
+std::expected<ProgramFile, Failure> read_file(const RunOptions& options, const MachineSetup& machine,
                                               const std::vector<double>& stands_mm, const gcode::KeptValues& values,
                                               Output& output) {
     const auto started = options.is_restart() ? places_at_start(machine, options.started_at) : stands_mm;
@@ -83,13 +83,13 @@ struct Chosen : Rest {
     gcode::ProgramValues values;
 };
 
-void print_approach(const RunOptions& options, const MachineConfig& machine, const Rest& rest, Output& output) {
+void print_approach(const RunOptions& options, const MachineSetup& machine, const Rest& rest, Output& output) {
     output.print(fmt::format("from line {}:\n{}{}", options.restart.from_line,
                              approach_text(rest.program, rest.approach), modal_text(machine, rest.modal)));
 }
 
 /// The program to run: all of it, or an approach and the rest. Prints an approach.
-std::expected<Chosen, Failure> choose(const RunOptions& options, std::string_view text, const MachineConfig& machine,
+std::expected<Chosen, Failure> choose(const RunOptions& options, std::string_view text, const MachineSetup& machine,
                                       const std::vector<double>& stands_mm, const RevisedValues& before,
                                       Output& output) {
     auto file = read_file(options, machine, stands_mm, before.values, output);
@@ -117,7 +117,7 @@ bool is_streamed(const RunOptions& options) {
 }
 
 /// Reads the lines that must be known before anything moves: the first lines, or all up to the one to begin with.
-std::expected<void, Failure> read_first(const RunOptions& options, const MachineConfig& machine,
+std::expected<void, Failure> read_first(const RunOptions& options, const MachineSetup& machine,
                                         const std::vector<double>& stands_mm, ProgramStream& stream, Output& output) {
     if (!options.is_restart()) {
         const auto read = stream.read_first();
@@ -157,7 +157,7 @@ ExitCode run_stream(const RunOptions& options) {
 }
 
 ExitCode run_stream(const RunOptions& options, Start& start, LineReader lines, Output& output) {
-    const MachineConfig& machine = start.session.config();
+    const MachineSetup& machine = start.session.config();
     const auto started_mm = options.is_restart() ? places_at_start(machine, options.started_at) : start.stands_mm;
     if (!started_mm) { return output.fail(bad_input("--started-at: " + started_mm.error())); }
     const std::string name = options.file == "-" ? "standard input" : options.file;

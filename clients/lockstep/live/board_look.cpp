@@ -19,7 +19,7 @@ constexpr nanoseconds kMostSilence = 500ms;
 constexpr nanoseconds kNewAnswer = 300ms;
 
 /// The windows of a lockstep-board that lives; none if there is no such process, or its board does not answer.
-std::vector<RegisterWindow> shared_windows(const MachineConfig& machine, const BoardLinkConfig& board) {
+std::vector<RegisterWindow> shared_windows(const MachineSetup& machine, const BoardLinkConfig& board) {
     std::vector<RegisterWindow> windows;
     for (unsigned motor = 0; motor < kMostBoardMotors; ++motor) {
         auto window = RegisterWindow::open_shared(firmware::board_window_name(machine.name, board.name, motor));
@@ -62,7 +62,7 @@ struct Spread {
 
 }  // namespace
 
-BoardLook::BoardLook(const MachineConfig& machine, const BoardLinkConfig& board)
+BoardLook::BoardLook(const MachineSetup& machine, const BoardLinkConfig& board)
     : windows_(shared_windows(machine, board)) {
     if (!windows_.empty()) { return; }
     windows_ = own_windows();

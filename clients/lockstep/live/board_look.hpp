@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/machine.hpp"
 #include "idl/proto/report.pb.h"
 #include "services/board/board_bridge.hpp"
+#include "services/setup/machine_setup.hpp"
 #include "sim_fpga/register_window.hpp"
 
 namespace lockstep {
@@ -18,7 +18,7 @@ class BoardLook {
 public:
     static constexpr std::chrono::seconds kPatience{2};
 
-    BoardLook(const MachineConfig& machine, const BoardLinkConfig& board);
+    BoardLook(const MachineSetup& machine, const BoardLinkConfig& board);
 
     /// Waits until the board answers, at most so long. Returns why it does not; nullopt if it does.
     std::optional<std::string> await(std::chrono::milliseconds most);

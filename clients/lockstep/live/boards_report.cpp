@@ -38,7 +38,7 @@ void describe(const DeviceAbilities& abilities, std::int64_t tick_ns, proto::Boa
     report.set_analog_outputs(abilities.analog_outputs);
 }
 
-void describe(const RegisterWindow& window, const MachineConfig& machine, const MotorConfig* user,
+void describe(const RegisterWindow& window, const MachineSetup& machine, const MotorConfig* user,
               proto::BoardMotorReport& report) {
     const auto driver = DeviceDriver::attach(window, machine.tick_ns);
     if (!driver) { return report.set_lack(driver.error()); }
@@ -65,7 +65,7 @@ std::string figures_line(const proto::LinkFiguresReport& figures) {
 
 }  // namespace
 
-std::expected<std::vector<BoardLinkConfig>, Failure> boards_of(const MachineConfig& machine, const std::string& name) {
+std::expected<std::vector<BoardLinkConfig>, Failure> boards_of(const MachineSetup& machine, const std::string& name) {
     std::vector<BoardLinkConfig> boards = machine.board_links;
     std::erase_if(boards, [&](const BoardLinkConfig& board) { return !name.empty() && board.name != name; });
     if (!boards.empty()) { return boards; }
@@ -79,7 +79,7 @@ std::expected<std::vector<BoardLinkConfig>, Failure> boards_of(const MachineConf
                                                  name, fmt::join(names, ", "))));
 }
 
-proto::BoardReport board_report(const MachineConfig& machine, const BoardLinkConfig& board) {
+proto::BoardReport board_report(const MachineSetup& machine, const BoardLinkConfig& board) {
     proto::BoardReport report;
     report.set_name(board.name);
     report.set_link(board.link.text());
@@ -91,7 +91,7 @@ proto::BoardReport board_report(const MachineConfig& machine, const BoardLinkCon
 
 namespace {
 
-void add_motors(const MachineConfig& machine, const std::vector<RegisterWindow>& shown, proto::BoardReport& report) {
+void add_motors(const MachineSetup& machine, const std::vector<RegisterWindow>& shown, proto::BoardReport& report) {
     const std::vector<MotorConfig> motors = motors_of(machine);
     std::size_t needed = shown.size();
     for (const MotorConfig& motor : motors) {
@@ -115,7 +115,7 @@ void add_motors(const MachineConfig& machine, const std::vector<RegisterWindow>&
 
 /// `use`: adds to the report what a board that answers shows.
 template <typename Use>
-proto::BoardReport report_of_answer(const MachineConfig& machine, const BoardLinkConfig& board, Use use) {
+proto::BoardReport report_of_answer(const MachineSetup& machine, const BoardLinkConfig& board, Use use) {
     proto::BoardReport report = board_report(machine, board);
     BoardLook look(machine, board);
     report.set_is_held(look.is_held());
@@ -129,20 +129,20 @@ proto::BoardReport report_of_answer(const MachineConfig& machine, const BoardLin
 
 }  // namespace
 
-proto::BoardReport check_board(const MachineConfig& machine, const BoardLinkConfig& board) {
+proto::BoardReport check_board(const MachineSetup& machine, const BoardLinkConfig& board) {
     return report_of_answer(machine, board, [&](const BoardLook& look, proto::BoardReport& report) {
         add_motors(machine, look.motors(), report);
     });
 }
 
-proto::BoardReport measure_board(const MachineConfig& machine, const BoardLinkConfig& board,
+proto::BoardReport measure_board(const MachineSetup& machine, const BoardLinkConfig& board,
                                  std::chrono::duration<double> time) {
     return report_of_answer(machine, board, [&](BoardLook& look, proto::BoardReport& report) {
         *report.mutable_figures() = look.measure(time);
     });
 }
 
-proto::BoardReport identify_board(const MachineConfig& machine, const BoardLinkConfig& board) {
+proto::BoardReport identify_board(const MachineSetup& machine, const BoardLinkConfig& board) {
     return report_of_answer(machine, board, [](BoardLook& look, proto::BoardReport& /*report*/) { look.identify(); });
 }
 
@@ -184,7 +184,7 @@ std::vector<fs::path> serial_lines(const fs::path& devices) {
 
 }  // namespace
 
-std::vector<std::string> free_adapters(const MachineConfig& machine, const fs::path& devices) {
+std::vector<std::string> free_adapters(const MachineSetup& machine, const fs::path& devices) {
     std::vector<std::string> adapters;
     for (const fs::path& line : serial_lines(devices)) {
         const auto is_named = [&](const BoardLinkConfig& board) {

@@ -31,7 +31,7 @@ proto::MemberKeys member_keys(const Member& member, const MemberCheck& check, st
 
 }  // namespace
 
-proto::KeysReport keys_report(const MachineConfig& machine, const fs::path& directory) {
+proto::KeysReport keys_report(const MachineSetup& machine, const fs::path& directory) {
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     proto::KeysReport report;
     report.set_machine(machine.name);

@@ -3,12 +3,12 @@
 
 #include <filesystem>
 
-#include "core/machine.hpp"
 #include "idl/proto/report.pb.h"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
 /// A member without any key file here does not run on this host, and has no errors.
-proto::KeysReport keys_report(const MachineConfig& machine, const std::filesystem::path& directory);
+proto::KeysReport keys_report(const MachineSetup& machine, const std::filesystem::path& directory);
 
 }  // namespace lockstep

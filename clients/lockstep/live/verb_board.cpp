@@ -54,7 +54,7 @@ ExitCode report_boards(const BoardOptions& options, Look look, const ReportOptio
 }
 
 ExitCode list(const BoardOptions& options) {
-    const auto look = [](const MachineConfig& machine, const BoardLinkConfig& board) {
+    const auto look = [](const MachineSetup& machine, const BoardLinkConfig& board) {
         proto::BoardReport report = board_report(machine, board);
         if (const std::string lack = why_not_opened(board); !lack.empty()) { report.set_lack(lack); }
         return report;
@@ -71,7 +71,7 @@ ExitCode check(const BoardOptions& options) { return report_boards(options, chec
 
 ExitCode bench(const BoardOptions& options) {
     const std::chrono::duration<double> time{options.seconds};
-    return report_boards(options, [time](const MachineConfig& machine, const BoardLinkConfig& board) {
+    return report_boards(options, [time](const MachineSetup& machine, const BoardLinkConfig& board) {
         return measure_board(machine, board, time);
     });
 }

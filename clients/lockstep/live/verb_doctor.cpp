@@ -43,14 +43,14 @@ struct DoctorOptions : LiveOptions {
 };
 
 /// The file of the axes' states, or the reason why it cannot be created; empty without network.one_host.
-std::expected<std::string, std::string> shared_states(const MachineConfig& machine) {
+std::expected<std::string, std::string> shared_states(const MachineSetup& machine) {
     if (!machine.network.one_host) { return ""; }
     const auto board = StateBoardReader::open(shared_states_file(machine.name, machine.network.domain), std::nullopt);
     if (!board) { return std::unexpected(board.error()); }
     return board->path().string();
 }
 
-void examine_network(const MachineConfig& machine, Findings& findings) {
+void examine_network(const MachineSetup& machine, Findings& findings) {
     const NetworkConfig& network = machine.network;
     const auto facts = doctor::look_at_interface(network.interface);
     findings.push_back(doctor::rate_interface(network, facts));
@@ -65,7 +65,7 @@ void examine_network(const MachineConfig& machine, Findings& findings) {
     findings.push_back(doctor::rate_send_buffer(needed, doctor::send_buffer_given(needed)));
 }
 
-void examine_host(const MachineConfig& machine, double seconds, Output& output, Findings& findings) {
+void examine_host(const MachineSetup& machine, double seconds, Output& output, Findings& findings) {
     const auto real_time = doctor::look_at_real_time();
     findings.push_back(doctor::rate_scheduler(machine.real_time, real_time));
     findings.push_back(doctor::rate_memory(machine.real_time, real_time));
@@ -73,14 +73,14 @@ void examine_host(const MachineConfig& machine, double seconds, Output& output, 
     findings.push_back(doctor::rate_stalls(machine.timing, watch_for_stalls(machine.timing.slot_us, seconds, output)));
 }
 
-std::expected<void, std::string> try_device(const MachineConfig& machine, const MotorConfig& motor) {
+std::expected<void, std::string> try_device(const MachineSetup& machine, const MotorConfig& motor) {
     const auto window = open_window(motor.device, machine);
     if (!window) { return std::unexpected(window.error()); }
     const auto driver = find_device(*window, machine, motor);
     return driver ? std::expected<void, std::string>{} : std::unexpected(driver.error());
 }
 
-void examine_board(const MachineConfig& machine, const BoardLinkConfig& board, Findings& findings) {
+void examine_board(const MachineSetup& machine, const BoardLinkConfig& board, Findings& findings) {
     const proto::BoardReport report = check_board(machine, board);
     std::vector<std::string> lacks;
     if (report.has_lack()) { lacks.push_back(report.lack()); }
@@ -90,7 +90,7 @@ void examine_board(const MachineConfig& machine, const BoardLinkConfig& board, F
     findings.push_back(doctor::rate_board(board, lacks));
 }
 
-void examine_parts_here(const MachineConfig& machine, Findings& findings) {
+void examine_parts_here(const MachineSetup& machine, Findings& findings) {
     const Placement here = placed_on(machine, host_name());
     std::set<std::string> boards;  // with a link, that motors here use
     for (const MotorIndex i : here.axes) {
@@ -111,7 +111,7 @@ void examine_parts_here(const MachineConfig& machine, Findings& findings) {
 }
 
 /// The keys of the parts on this host, and of other members with keys here.
-void examine_keys(const MachineConfig& machine, Findings& findings) {
+void examine_keys(const MachineSetup& machine, Findings& findings) {
     if (!machine.security.enabled()) { return; }
     const Placement here = placed_on(machine, host_name());
     std::set<std::string> needed;

@@ -75,7 +75,7 @@ ExitCode make(const KeysOptions& options) {
     Output output(options.json);
     const auto keys = choose_keys(options);
     if (!keys) { return output.fail(keys.error()); }
-    const MachineConfig& machine = keys->machine.config;
+    const MachineSetup& machine = keys->machine.config;
     const auto made = make_keys(machine, keys->directory, valid_for(std::chrono::days(options.days)), options.force);
     if (!made) { return output.fail(failed(made.error())); }
     proto::KeysReport report = keys_report(machine, keys->directory);

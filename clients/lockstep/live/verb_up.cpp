@@ -37,7 +37,7 @@ constexpr std::chrono::seconds kPagePatience{20};
 constexpr double kGlance_s = 2;       // wait for other hosts' parts, so that the last host to start reports them
 constexpr double kWaitForAll_s = 60;  // with --all, which starts all parts
 
-std::string names_here(const MachineConfig& machine, const Placement& placed) {
+std::string names_here(const MachineSetup& machine, const Placement& placed) {
     std::string names = placed.coordinator ? "the coordinator" : "";
     for (const MotorIndex i : placed.axes) { names += (names.empty() ? "" : ", ") + motor_name(machine, i); }
     return names;

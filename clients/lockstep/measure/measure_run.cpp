@@ -32,7 +32,7 @@ std::expected<void, Failure> check_file(const std::string& path) {
 /// Sets the coordinate system or the tool. Returns what was set.
 std::expected<std::string, Failure> keep(Session& session, const MeasureVerbOptions& options,
                                          const proto::Measurement& measured, const std::vector<double>& start_mm) {
-    const MachineConfig& machine = session.config();
+    const MachineSetup& machine = session.config();
     auto values = await_values(session);
     if (!values) { return std::unexpected(values.error()); }
     gcode::KeptValues wanted = values->values;
@@ -44,7 +44,7 @@ std::expected<std::string, Failure> keep(Session& session, const MeasureVerbOpti
     return sets_tool ? fmt::format("; the length of tool {} is set", options.tool) : "; " + options.set + " is set";
 }
 
-std::vector<double> touches_z(const MachineConfig& machine, const proto::RunReport& report) {
+std::vector<double> touches_z(const MachineSetup& machine, const proto::RunReport& report) {
     const auto z = find_axis(machine, "Z");
     std::vector<double> places;
     for (const proto::ProbeReport& touch : report.probes()) {
@@ -56,7 +56,7 @@ std::vector<double> touches_z(const MachineConfig& machine, const proto::RunRepo
 /// Everything that can be refused is refused here, before anything moves.
 std::expected<MeasuringProgram, Failure> prepare(const MeasureVerbOptions& options, const Session& session,
                                                  const std::vector<double>& start_mm) {
-    const MachineConfig& machine = session.config();
+    const MachineSetup& machine = session.config();
     auto program = measuring_program(machine, start_mm, options.measure);
     if (!program) { return std::unexpected(bad_input(text_of(program.error()))); }
     gcode::KeptValues unused;

@@ -22,7 +22,7 @@ namespace lockstep {
 
 namespace {
 
-std::expected<gcode::KeptValues, Failure> values_of(const ProgramOptions& options, const MachineConfig& machine) {
+std::expected<gcode::KeptValues, Failure> values_of(const ProgramOptions& options, const MachineSetup& machine) {
     const std::filesystem::path file = options.values.empty() ? values_file(machine.name).string() : options.values;
     if (const auto text = read_text_file(file); !options.values.empty() && !text) {
         return std::unexpected(bad_file(file, {text.error()}));
@@ -34,7 +34,7 @@ std::expected<gcode::KeptValues, Failure> values_of(const ProgramOptions& option
 
 /// The machine, its start position and its values, which are needed to read a program.
 struct ReadingSetup {
-    MachineConfig machine;
+    MachineSetup machine;
     std::vector<double> start_mm;
     gcode::KeptValues values;
     GcodeSwitches switches;
@@ -80,7 +80,7 @@ private:
 };
 
 /// Reads in a thread of its own. Returns when that has ended.
-std::expected<ProgramPlan, PlanError> plan_as_read(const MachineConfig& machine,
+std::expected<ProgramPlan, PlanError> plan_as_read(const MachineSetup& machine,
                                                    const std::shared_ptr<ProgramText>& text, const std::string& file,
                                                    Output& output, const OnSetup& on_setup) {
     const ProgramHead head = text->head();

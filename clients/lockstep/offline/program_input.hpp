@@ -10,9 +10,9 @@
 #include "clients/text/failure.hpp"
 #include "clients/text/output.hpp"
 #include "core/gcode/gcode.hpp"
-#include "core/machine.hpp"
 #include "core/program.hpp"
 #include "services/arguments/argument_parser.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
@@ -32,7 +32,7 @@ void add_start(Verb verb, ProgramOptions& options);
 
 /// A plan and its input.
 struct PlannedFile {
-    MachineConfig machine;
+    MachineSetup machine;
     ProgramPlan plan;
     int lines = 0;                 // number of lines of the G-code
     std::vector<GcodeNote> notes;  // ignored words, and messages
@@ -46,7 +46,7 @@ struct ProgramInput : PlannedFile {
 };
 
 /// Called once the machine is known. Returns the function that takes the plan's frames.
-using OnSetup = std::function<OnPlannedFrame(const MachineConfig& machine)>;
+using OnSetup = std::function<OnPlannedFrame(const MachineSetup& machine)>;
 
 /// Reports all errors of the configuration, the start, the values or the program, by line and column.
 std::expected<ProgramInput, Failure> read_program(const ProgramOptions& options, const OnSetup& on_setup = {});

@@ -36,7 +36,7 @@ ExitCode check(const CheckOptions& options) {
     Output output(options.json);
     const auto machine = choose_machine(options.file);
     if (!machine) { return output.fail(machine.error()); }
-    const MachineConfig& config = machine->config;
+    const MachineSetup& config = machine->config;
     output.print(
         fmt::format("{}: ok: machine '{}', axes: {}", machine->file.string(), config.name, config.axes.size()));
     for (const AxisConfig& axis : config.axes) { output.print(axis_line(axis)); }

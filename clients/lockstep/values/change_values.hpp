@@ -11,8 +11,8 @@
 
 namespace lockstep {
 
-using ValuesText = std::string (*)(const MachineConfig& machine, const gcode::KeptValues& values);
-using ChangeValues = std::function<Changed(const MachineConfig& machine, gcode::KeptValues& values)>;
+using ValuesText = std::string (*)(const MachineSetup& machine, const gcode::KeptValues& values);
+using ChangeValues = std::function<Changed(const MachineSetup& machine, gcode::KeptValues& values)>;
 
 ExitCode show_values(const LiveOptions& options, ValuesText text);
 /// Waits until the change is on the coordinator's disk, then shows the values.

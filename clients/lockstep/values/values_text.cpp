@@ -16,7 +16,7 @@ using gcode::Point;
 
 constexpr std::size_t kNameWidth = 7;
 
-std::string places_text(const MachineConfig& machine, const Point& place) {
+std::string places_text(const MachineSetup& machine, const Point& place) {
     std::string text;
     for (const AxisConfig& axis : machine.axes) {
         if (const auto letter = gcode::axis_place(axis.name)) {
@@ -33,7 +33,7 @@ std::string row(std::string name, const std::string& text) {
 
 }  // namespace
 
-std::string offsets_text(const MachineConfig& machine, const KeptValues& values) {
+std::string offsets_text(const MachineSetup& machine, const KeptValues& values) {
     std::string text;
     for (std::size_t i = 0; i < gcode::kSystems; ++i) {
         const gcode::CoordinateSystem& system = values.systems[i];
@@ -51,7 +51,7 @@ std::string offsets_text(const MachineConfig& machine, const KeptValues& values)
     return "offsets of machine '" + machine.name + "':\n" + text;
 }
 
-std::string tools_text(const MachineConfig& machine, const KeptValues& values) {
+std::string tools_text(const MachineSetup& machine, const KeptValues& values) {
     std::string text;
     for (const auto& [number, tool] : values.tools) {
         std::string line = places_text(machine, tool.offset) + "  D " + number_text(tool.diameter);

@@ -4,13 +4,13 @@
 #include <string>
 
 #include "core/gcode/kept_values.hpp"
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
 /// A line for each coordinate system that is set, and for G92, G28 and G30.
-std::string offsets_text(const MachineConfig& machine, const gcode::KeptValues& values);
+std::string offsets_text(const MachineSetup& machine, const gcode::KeptValues& values);
 /// A line for each tool.
-std::string tools_text(const MachineConfig& machine, const gcode::KeptValues& values);
+std::string tools_text(const MachineSetup& machine, const gcode::KeptValues& values);
 
 }  // namespace lockstep

@@ -180,7 +180,7 @@ private:
 
     const Scenario& scenario_;
     const Asked& asked_;
-    const MachineConfig& machine_;
+    const MachineSetup& machine_;
     std::vector<std::string> processes_;
     std::optional<std::int32_t> last_line_;  // of the program of the step; nullopt if it has none, or errors
     Problems problems_;

@@ -21,8 +21,8 @@ Diagnostics at_key(const TextSource& source, std::string_view key, const std::st
 }
 
 /// Reports each error in the machine's file at the key that names the file, with the place in that file.
-std::expected<MachineConfig, Diagnostics> machine_of_file(const Asked& asked, const TextSource& source,
-                                                          const fs::path& folder) {
+std::expected<MachineSetup, Diagnostics> machine_of_file(const Asked& asked, const TextSource& source,
+                                                         const fs::path& folder) {
     const fs::path path = folder / asked.machine_file();
     auto machine = load_machine_file(path);
     if (machine) { return *std::move(machine); }
@@ -34,8 +34,8 @@ std::expected<MachineConfig, Diagnostics> machine_of_file(const Asked& asked, co
     return std::unexpected(errors);
 }
 
-std::expected<MachineConfig, Diagnostics> machine_of(const Asked& asked, const TextSource& source,
-                                                     const fs::path& folder) {
+std::expected<MachineSetup, Diagnostics> machine_of(const Asked& asked, const TextSource& source,
+                                                    const fs::path& folder) {
     if (asked.has_machine() && asked.has_machine_file()) {
         return std::unexpected(
             at_key(source, "machine_file", "machine and machine_file both name a machine; keep one"));
@@ -76,7 +76,7 @@ std::expected<Scenario, Diagnostics> load_scenario(const fs::path& file, std::op
 
 bool has_links(Asked::Place place) { return place == Asked::NAMESPACE || place == Asked::CONTAINER; }
 
-std::vector<std::string> processes_of(const Asked& asked, const MachineConfig& machine) {
+std::vector<std::string> processes_of(const Asked& asked, const MachineSetup& machine) {
     std::vector<std::string> names{"coordinator"};
     if (asked.standby()) { names.emplace_back("coordinator-2"); }
     const std::vector<std::string> motors = motor_names(machine);
@@ -88,7 +88,7 @@ std::vector<std::string> processes_of(const Asked& asked, const MachineConfig& m
 }
 
 std::expected<ProgramOfRun, Diagnostics> program_of(const Asked::Run& run, const fs::path& folder,
-                                                    const MachineConfig& machine, const std::vector<double>& start_mm,
+                                                    const MachineSetup& machine, const std::vector<double>& start_mm,
                                                     const gcode::KeptValues& values) {
     const fs::path file = folder / (run.has_file() ? run.file() : "gcode");
     ProgramOfRun program{run.gcode(), program_setup(file, machine, start_mm, {}, values)};
@@ -99,7 +99,7 @@ std::expected<ProgramOfRun, Diagnostics> program_of(const Asked::Run& run, const
     return program;
 }
 
-MachineConfig isolated(MachineConfig machine, Asked::Place place) {
+MachineSetup isolated(MachineSetup machine, Asked::Place place) {
     const bool linked = has_links(place);
     machine.network = {.interface = linked ? "eth0" : "lo",
                        .lcm_url = kLcmGroup + std::string(linked ? "1" : "0"),

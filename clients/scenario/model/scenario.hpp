@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/gcode/gcode.hpp"
-#include "core/machine.hpp"
 #include "idl/proto/scenario.pb.h"
 #include "services/files/diagnostic.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep::scenario {
 
@@ -20,7 +20,7 @@ using Asked = proto::Scenario;
 struct Scenario {
     std::filesystem::path file;
     Asked asked;
-    MachineConfig machine;  // as it runs in the scenario
+    MachineSetup machine;  // as it runs in the scenario
 
     /// The file's name without its ending.
     std::string name() const { return file.stem().string(); }
@@ -38,7 +38,7 @@ std::expected<Scenario, Diagnostics> load_scenario(const std::filesystem::path& 
 bool has_links(Asked::Place place);
 
 /// The processes of the machine, by the names that `lockstep up` gives them.
-std::vector<std::string> processes_of(const Asked& asked, const MachineConfig& machine);
+std::vector<std::string> processes_of(const Asked& asked, const MachineSetup& machine);
 
 /// The text of a step's program, and the interpreter that reads it from `start_mm`. Error: the file cannot be read.
 struct ProgramOfRun {
@@ -46,11 +46,11 @@ struct ProgramOfRun {
     GcodeSetup setup;
 };
 std::expected<ProgramOfRun, Diagnostics> program_of(const Asked::Run& run, const std::filesystem::path& folder,
-                                                    const MachineConfig& machine, const std::vector<double>& start_mm,
+                                                    const MachineSetup& machine, const std::vector<double>& start_mm,
                                                     const gcode::KeptValues& values = {});
 
 /// Returns the machine with all its parts on this host, on an isolated network, with records in the scenario's
 /// directory.
-MachineConfig isolated(MachineConfig machine, Asked::Place place);
+MachineSetup isolated(MachineSetup machine, Asked::Place place);
 
 }  // namespace lockstep::scenario

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::expected<proto::MergeReport, std::string> merge_logs(const MachineConfig& machine, const fs::path& folder) {
+std::expected<proto::MergeReport, std::string> merge_logs(const MachineSetup& machine, const fs::path& folder) {
     const auto logs = merge::named_logs({folder / "run.lcm", record_directory(machine.name)});
     if (!logs) { return std::unexpected(logs.error()); }
     const auto all = merge::choose_logs(*logs, true);
@@ -41,7 +41,7 @@ bool lacks_something(const FlightEvent& event) {
     return event.kind == FlightKind::Vetoed && event.detail != static_cast<std::uint8_t>(VetoReason::Own);
 }
 
-void read_incident_files(const MachineConfig& machine, Evidence& evidence) {
+void read_incident_files(const MachineSetup& machine, Evidence& evidence) {
     const auto input = read_incidents({incident_directory(machine)});
     if (!input) { return; }  // no process wrote one
     for (const incident::Incident& incident : input->incidents) {
@@ -59,7 +59,7 @@ void read_incident_files(const MachineConfig& machine, Evidence& evidence) {
 
 }  // namespace
 
-Evidence read_evidence(const MachineConfig& machine, const fs::path& folder) {
+Evidence read_evidence(const MachineSetup& machine, const fs::path& folder) {
     Evidence evidence;
     evidence.merged = merge_logs(machine, folder);
     const fs::path whole = folder / kWholeLog;

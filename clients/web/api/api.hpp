@@ -23,7 +23,7 @@ namespace lockstep::web {
 
 /// The parts that an Api uses; all must outlive it.
 struct ApiParts {
-    const MachineConfig& machine;
+    const MachineSetup& machine;
     MachinePort& port;
     EventLog& log;
     ProgramDesk& desk;

@@ -19,7 +19,7 @@ std::shared_ptr<const ProgramFacts> facts_of(const std::string& text, const Sess
 
 }  // namespace
 
-MdiSession::MdiSession(const MachineConfig& machine)
+MdiSession::MdiSession(const MachineSetup& machine)
     : machine_(machine), session_(session_setup(machine, kName), machine) {}
 
 std::expected<std::optional<ReadyProgram>, Problem> MdiSession::read(const std::string& line,

@@ -21,7 +21,7 @@ class MdiSession {
 public:
     static constexpr std::size_t kMostLines = 100;  // that are kept
 
-    explicit MdiSession(const MachineConfig& machine);
+    explicit MdiSession(const MachineSetup& machine);
 
     /// Makes a line ready to run; nullopt if it leaves the machine as it is. Call answer() next. Fails with 422 for a
     /// wrong line, and with 409 until the line before is answered.
@@ -44,7 +44,7 @@ public:
 private:
     void take_touch(const Snapshot& snapshot);
 
-    MachineConfig machine_;
+    MachineSetup machine_;
     mutable std::mutex mutex_;
     GcodeSession session_;
     bool is_waiting_ = false;                   // a line waits for the machine's answer

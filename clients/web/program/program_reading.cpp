@@ -42,7 +42,7 @@ std::string in_words(const Diagnostic& error) {
     return fmt::format("line {}, column {}: {}", error.line, error.column, error.message);
 }
 
-GcodeSetup setup_of(const std::string& name, const MachineConfig& machine, const ProgramStart& start) {
+GcodeSetup setup_of(const std::string& name, const MachineSetup& machine, const ProgramStart& start) {
     // Uses only the last part of the program's name: subroutines come only from the machine's directory.
     const std::filesystem::path directory =
         machine.subroutine_directory.empty() ? "/dev/null" : machine.subroutine_directory;
@@ -129,7 +129,7 @@ ProgramUpload::Feed feed_of(std::vector<Block>&& blocks) {
     };
 }
 
-ProgramStart checked_start(const Snapshot& snapshot, const MachineConfig& machine) {
+ProgramStart checked_start(const Snapshot& snapshot, const MachineSetup& machine) {
     ProgramStart start{parked_mm(machine), snapshot.values.value_or(RevisedValues{})};
     for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
         const auto& axis = snapshot.axes[i].state;
@@ -139,7 +139,7 @@ ProgramStart checked_start(const Snapshot& snapshot, const MachineConfig& machin
     return start;
 }
 
-std::expected<ProgramStart, Problem> real_start(const Snapshot& snapshot, const MachineConfig& machine) {
+std::expected<ProgramStart, Problem> real_start(const Snapshot& snapshot, const MachineSetup& machine) {
     if (auto ready = check_phase(snapshot); !ready) { return std::unexpected(ready.error()); }
     ProgramStart start;
     for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
@@ -162,7 +162,7 @@ std::expected<ProgramStart, Problem> real_start(const Snapshot& snapshot, const 
 }
 
 std::expected<LoadedProgram, Problem> load_program(std::string text, const std::string& name, std::uint64_t id,
-                                                   const MachineConfig& machine, const ProgramStart& start) {
+                                                   const MachineSetup& machine, const ProgramStart& start) {
     if (!is_text(text)) { return std::unexpected(no_text(text)); }
     if (text.empty()) { return std::unexpected(wrong_program({{.message = "the program is empty"}})); }
     const GcodeSetup setup = setup_of(name, machine, start);
@@ -173,7 +173,7 @@ std::expected<LoadedProgram, Problem> load_program(std::string text, const std::
     return LoadedProgram{std::move(facts), std::make_shared<const std::string>(std::move(text)), std::move(path)};
 }
 
-std::expected<ReadyProgram, Problem> ready_program(const LoadedProgram& program, const MachineConfig& machine,
+std::expected<ReadyProgram, Problem> ready_program(const LoadedProgram& program, const MachineSetup& machine,
                                                    const ProgramStart& start) {
     const GcodeSetup setup = setup_of(program.facts->name, machine, start);
     if (program.text->size() > kShort_bytes) { return ready_lines(program, setup, start); }

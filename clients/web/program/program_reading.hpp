@@ -13,6 +13,7 @@
 #include "clients/web/program/path_points.hpp"
 #include "clients/web/request/problem.hpp"
 #include "clients/web/state/snapshot.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep::web {
 
@@ -30,13 +31,13 @@ struct ProgramStart {
 };
 
 /// The start for a check. An axis that is not received or not homed counts as parked.
-ProgramStart checked_start(const Snapshot& snapshot, const MachineConfig& machine);
+ProgramStart checked_start(const Snapshot& snapshot, const MachineSetup& machine);
 /// The start for a run. Fails if the machine or an axis is not ready, or an axis or the offsets are not received.
-std::expected<ProgramStart, Problem> real_start(const Snapshot& snapshot, const MachineConfig& machine);
+std::expected<ProgramStart, Problem> real_start(const Snapshot& snapshot, const MachineSetup& machine);
 
 /// `id`: of the new program. Fails with 415 if it is not text, and with 422 and its errors by line and column.
 std::expected<LoadedProgram, Problem> load_program(std::string text, const std::string& name, std::uint64_t id,
-                                                   const MachineConfig& machine, const ProgramStart& start);
+                                                   const MachineSetup& machine, const ProgramStart& start);
 
 /// A program, and the feed by which a session sends it.
 struct ReadyProgram {
@@ -50,7 +51,7 @@ struct ReadyProgram {
 
 /// Reads the first part here of a program that is long or probes; the rest is read while it runs. Fails with 422 like
 /// load_program().
-std::expected<ReadyProgram, Problem> ready_program(const LoadedProgram& program, const MachineConfig& machine,
+std::expected<ReadyProgram, Problem> ready_program(const LoadedProgram& program, const MachineSetup& machine,
                                                    const ProgramStart& start);
 
 /// Reads the stream's first part. Fails with 422 like load_program().

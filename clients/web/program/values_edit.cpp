@@ -17,7 +17,7 @@ void set_letters(const Letters& letters, gcode::Point& place) {
 }  // namespace
 
 std::expected<gcode::KeptValues, Problem> edited(const TouchOrder& order, const gcode::KeptValues& values,
-                                                 const MachineConfig& machine, const std::vector<double>& place_mm) {
+                                                 const MachineSetup& machine, const std::vector<double>& place_mm) {
     std::string line = fmt::format("G21 G10 L20 P{}", order.system + 1);
     for (const auto& [letter, value] : order.places) { line += " " + std::string(1, letter) + number_text(value); }
     GcodeSetup setup = gcode_setup(machine, place_mm, "touch");

@@ -6,14 +6,14 @@
 
 #include "clients/web/request/orders.hpp"
 #include "core/gcode/kept_values.hpp"
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep::web {
 
 /// Sets a coordinate system so that axes that stand at `place_mm` read the order's places. G92 and a rotation keep
 /// their effect.
 std::expected<gcode::KeptValues, Problem> edited(const TouchOrder& order, const gcode::KeptValues& values,
-                                                 const MachineConfig& machine, const std::vector<double>& place_mm);
+                                                 const MachineSetup& machine, const std::vector<double>& place_mm);
 std::expected<gcode::KeptValues, Problem> edited(const OffsetOrder& order, gcode::KeptValues values);
 /// Fails if there is no such tool to remove, or no room for another.
 std::expected<gcode::KeptValues, Problem> edited(const ToolOrder& order, gcode::KeptValues values);

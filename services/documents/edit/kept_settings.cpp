@@ -172,7 +172,7 @@ std::expected<std::string, Diagnostics> with_settings(std::string_view text, con
     return edited;
 }
 
-std::string why_without_effect(const MachineConfig& machine, const KeptSettings& settings) {
+std::string why_without_effect(const MachineSetup& machine, const KeptSettings& settings) {
     for (const KeptSetting& setting : settings) {
         const auto axis = std::ranges::find(machine.axes, setting.axis, &AxisConfig::name);
         if (setting.key != "steps_per_mm" || axis == machine.axes.end()) { continue; }

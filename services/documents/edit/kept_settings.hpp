@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/machine.hpp"
 #include "services/files/diagnostic.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
@@ -32,7 +32,7 @@ std::string value_of(const AxisConfig& axis, std::string_view key);
 
 /// Names a motor that has its own value of a key that is set for its axis; empty if there is none. `machine`: with the
 /// settings.
-std::string why_without_effect(const MachineConfig& machine, const KeptSettings& settings);
+std::string why_without_effect(const MachineSetup& machine, const KeptSettings& settings);
 
 /// Returns "mill.textproto.settings" beside "mill.textproto". If `machine_file` is a link, the name is that of the
 /// link's target.
@@ -54,7 +54,7 @@ std::expected<std::string, Diagnostics> with_settings(std::string_view text, con
 
 /// A machine described by its file and the settings beside it.
 struct LoadedMachine {
-    MachineConfig config;
+    MachineSetup config;
     KeptSettings settings;
 };
 std::expected<LoadedMachine, Diagnostics> load_machine(const std::filesystem::path& file);

@@ -11,14 +11,14 @@ namespace lockstep {
 namespace {
 
 /// The motors whose devices are behind links.
-std::vector<MotorConfig> linked_motors_of(const MachineConfig& machine) {
+std::vector<MotorConfig> linked_motors_of(const MachineSetup& machine) {
     std::vector<MotorConfig> motors = motors_of(machine);
     std::erase_if(motors, [](const MotorConfig& motor) { return motor.device.kind != DeviceName::Kind::Linked; });
     return motors;
 }
 
 /// The key `device` of a motor.
-FieldPath device_of(const MachineConfig& machine, const MotorConfig& motor) {
+FieldPath device_of(const MachineSetup& machine, const MotorConfig& motor) {
     if (!motor.axis) { return {{}, "board"}; }
     const auto& blocks = machine.axes[*motor.axis].motors;
     const auto block = std::ranges::find(blocks, motor.name, &MotorBlock::name);
@@ -26,7 +26,7 @@ FieldPath device_of(const MachineConfig& machine, const MotorConfig& motor) {
 }
 
 /// Why a motor cannot have its device; empty if it can. `before`: the motors before it.
-std::string fault_of(const MachineConfig& machine, const MotorConfig& motor, const std::vector<MotorConfig>& before) {
+std::string fault_of(const MachineSetup& machine, const MotorConfig& motor, const std::vector<MotorConfig>& before) {
     const std::string text = motor.device.text();
     const std::string& board = motor.device.place;
     if (std::ranges::find(machine.board_links, board, &BoardLinkConfig::name) == machine.board_links.end()) {
@@ -53,7 +53,7 @@ std::string fault_of(const MachineConfig& machine, const MotorConfig& motor, con
 /// Checks one board, whose block has the number `number` among those with a link.
 class BoardLinkRules {
 public:
-    BoardLinkRules(const MachineConfig& machine, std::size_t number)
+    BoardLinkRules(const MachineSetup& machine, std::size_t number)
         : machine_(machine), board_(machine.board_links[number]), number_(number) {}
 
     std::vector<Problem> check() {
@@ -97,7 +97,7 @@ private:
         return std::ranges::any_of(linked_motors_of(machine_), has_it);
     }
 
-    const MachineConfig& machine_;
+    const MachineSetup& machine_;
     const BoardLinkConfig& board_;
     std::size_t number_;
     ProblemList problems_;
@@ -105,7 +105,7 @@ private:
 
 }  // namespace
 
-std::vector<Problem> board_link_problems(const MachineConfig& machine) {
+std::vector<Problem> board_link_problems(const MachineSetup& machine) {
     std::vector<Problem> problems;
     std::vector<MotorConfig> before;
     for (const MotorConfig& motor : linked_motors_of(machine)) {

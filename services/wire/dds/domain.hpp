@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 #include "services/wire/dds/entity.hpp"
 #include "services/wire/dds/interface_sockets.hpp"
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "core/machine.hpp"
 #include "services/network/interface_identity.hpp"
+#include "services/setup/machine_setup.hpp"
 #include "services/wire/dds/domain.hpp"
 #include "services/wire/dds/entity.hpp"
 #include "services/wire/dds/sent_keys.hpp"

@@ -17,7 +17,7 @@ namespace lockstep {
 template <typename Link>
 class WatchedLink {
 public:
-    WatchedLink(const MachineConfig& machine, std::unique_ptr<Link> first, typename Reopenable<Link>::Open open)
+    WatchedLink(const MachineSetup& machine, std::unique_ptr<Link> first, typename Reopenable<Link>::Open open)
         : watch_(Ticks{lease_of(machine.network).count() / machine.tick_ns}, machine.tick_ns),
           link_(std::move(first), std::move(open), [](const std::string& why) { add_dds_message(why); }) {}
 

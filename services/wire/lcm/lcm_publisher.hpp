@@ -9,7 +9,7 @@
 
 #include <lcm/lcm-cpp.hpp>
 
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 

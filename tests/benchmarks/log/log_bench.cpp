@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr int kCrossings = 20;
 
-MachineConfig machine() {
+MachineSetup machine() {
     AxisConfig axis{.steps_per_mm = 1000,
                     .start_velocity_mm_s = 10,
                     .max_velocity_mm_s = 100,
@@ -32,7 +32,7 @@ MachineConfig machine() {
     axis.homing = {
         .search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .switch_position_mm = -1, .park_mm = 5};
     axis.plant = {.start_position_mm = 8, .travel_margin_mm = 2, .max_torque_accel_mm_s2 = 2250, .max_jump_mm_s = 15};
-    MachineConfig machine{.name = "bench", .axes = {axis, axis, axis}};
+    MachineSetup machine{{.name = "bench", .axes = {axis, axis, axis}}};
     for (std::size_t i = 0; i < 3; ++i) { machine.axes[i].name = std::string(1, static_cast<char>('X' + i)); }
     return machine;
 }

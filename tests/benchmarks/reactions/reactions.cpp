@@ -43,7 +43,7 @@ struct Profile {
     int late_check_slots;
 };
 
-MachineConfig with(MachineConfig machine, const Profile& profile) {
+MachineSetup with(MachineSetup machine, const Profile& profile) {
     ProtocolTiming& t = machine.timing;
     t.slot_us = profile.slot_us;
     t.stall_slots = profile.stall_slots;
@@ -62,7 +62,7 @@ void begin(Motion motion, MovingMachine& moving) {
 }
 
 /// Measures the time from the client's command to the first pulse.
-void measure_begin_of_jog(const MachineConfig& machine, const Profile& profile) {
+void measure_begin_of_jog(const MachineSetup& machine, const Profile& profile) {
     std::vector<double> begins;
     for (int i = 0; i < kTimes; ++i) {
         MovingMachine moving(with(machine, profile));
@@ -76,7 +76,7 @@ void measure_begin_of_jog(const MachineConfig& machine, const Profile& profile) 
     std::printf("| jog: begins | %s | %s | |\n", profile.name, spread(begins).c_str());
 }
 
-void measure(const MachineConfig& machine, const Profile& profile, const Event& event) {
+void measure(const MachineSetup& machine, const Profile& profile, const Event& event) {
     std::vector<double> brakes, rests;
     for (int i = 0; i < kTimes; ++i) {
         MovingMachine moving(with(machine, profile));

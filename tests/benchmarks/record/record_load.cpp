@@ -40,7 +40,7 @@ private:
     std::int64_t steps_ = 0;
 };
 
-int run(const Load& load, const MachineConfig& machine, std::size_t axis) {
+int run(const Load& load, const MachineSetup& machine, std::size_t axis) {
     const MachineClock clock(machine.tick_ns, machine.timing.time_source);
     const Tick start = clock.now();
     const Tick end = start + Ticks{static_cast<std::int64_t>(load.seconds * machine.ticks_per_second())};

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kAll = "<topics><topic>*</topic></topics><partitions><partition>*</partition></partitions>";
 
-std::string all_allowed(const MachineConfig& machine, const std::string& subject) {
+std::string all_allowed(const MachineSetup& machine, const std::string& subject) {
     const Period always = valid_for(std::chrono::days(365));
     std::string text = permissions_xml(machine, client_member(), subject, always);
     const std::string rule = allow_rule_xml(machine, client_member());
@@ -23,7 +23,7 @@ std::string all_allowed(const MachineConfig& machine, const std::string& subject
 }  // namespace
 
 bool make_benchmark_keys(const NetworkConfig& network, const std::filesystem::path& directory) {
-    MachineConfig machine;
+    MachineSetup machine;
     machine.name = "benchmark";
     machine.network = network;
     constexpr std::chrono::days kValid{1};

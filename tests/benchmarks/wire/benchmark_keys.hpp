@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 #include "services/wire/dds/participant.hpp"
 
 namespace lockstep {

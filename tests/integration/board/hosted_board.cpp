@@ -86,7 +86,7 @@ private:
 
 class HostedBoard final : public firmware::Exchange {
 public:
-    HostedBoard(const MachineConfig& machine, const Options& options, std::FILE* edges)
+    HostedBoard(const MachineSetup& machine, const Options& options, std::FILE* edges)
         : ppm_(options.ppm),
           bad_bytes_(options.bad_bytes),
           there_(options.rate),
@@ -138,7 +138,7 @@ private:
     static constexpr std::int64_t kBlock = 128;
     static constexpr std::int64_t kMostAhead = 1191;
 
-    void add(const MachineConfig& machine, const MotorConfig& motor, unsigned n, std::FILE* edges) {
+    void add(const MachineSetup& machine, const MotorConfig& motor, unsigned n, std::FILE* edges) {
         const firmware::Abilities abilities{.power_up = std::uint64_t{session_} << 8 | n,
                                             .least_step_ticks = 16,
                                             .lead_ticks = kBlock,

@@ -20,7 +20,7 @@ protected:
     /// The machine's file with one change.
     template <typename Change>
     void change(Change change) const {
-        MachineConfig machine = load_machine_file(file()).value();
+        MachineSetup machine = load_machine_file(file()).value();
         change(machine);
         std::ofstream(file()) << machine_text(machine);
     }
@@ -29,7 +29,7 @@ protected:
 
 TEST_F(Deployment, ADeviceThatIsMappedIsDrivenAsOneInTheProcess) {
     const std::string registers = write("x.registers", "");
-    change([&](MachineConfig& machine) { machine.axes[0].device = {DeviceName::Kind::Mapped, registers}; });
+    change([&](MachineSetup& machine) { machine.axes[0].device = {DeviceName::Kind::Mapped, registers}; });
     const ChildProcess fpga(LOCKSTEP_FPGA, {"--machine", file(), "--axis", "X", "--file", registers});
     bring_up_and_home();
     EXPECT_THAT(log_of("axis-X"), HasSubstr("is up, device uio:" + registers));
@@ -41,7 +41,7 @@ TEST_F(Deployment, ADeviceThatIsMappedIsDrivenAsOneInTheProcess) {
 TEST_F(Deployment, RefusesAForeignDeviceByItsRegisters) {
     const std::string registers = write("x.registers", std::string(registers::kWindowBytes, '\0'));
     const std::string log = write("axis.log", "");
-    change([&](MachineConfig& machine) { machine.axes[0].device = {DeviceName::Kind::Mapped, registers}; });
+    change([&](MachineSetup& machine) { machine.axes[0].device = {DeviceName::Kind::Mapped, registers}; });
     ChildProcess axis(LOCKSTEP_AXIS, {"--machine", file(), "--axis", "X", "--log", log});
     EXPECT_TRUE(eventually([&] { return tail_of(log, 50).find("waits for its device") != std::string::npos; }));
     EXPECT_THAT(tail_of(log, 50), HasSubstr("waits for its device uio:" + registers));
@@ -61,14 +61,14 @@ TEST_F(Deployment, RefusesADeviceWithItsOwnClockThatTheMachinesFileDoesNotName) 
 }
 
 TEST_F(Deployment, StartsOnlyThePartsOfThisHost) {
-    change([](MachineConfig& machine) { machine.coordinator_host = "elsewhere"; });
+    change([](MachineSetup& machine) { machine.coordinator_host = "elsewhere"; });
     const ChildProcess up(LOCKSTEP_COMMAND, {"up", "--foreground"});
     ASSERT_TRUE(eventually([&] { return state().running().size() == 3; }));  // and the supervisor
     EXPECT_NE(process("axis-X"), 0);
 }
 
 TEST_F(Deployment, ReportsThatNothingBelongsOnThisHost) {
-    change([](MachineConfig& machine) {
+    change([](MachineSetup& machine) {
         machine.coordinator_host = "elsewhere";
         for (AxisConfig& axis : machine.axes) { axis.host = "elsewhere"; }
     });
@@ -96,7 +96,7 @@ TEST_F(Deployment, TheDoctorFindsNothingWrongWithAMachineThatIsUp) {
 
 TEST_F(Deployment, TheDoctorNamesProblemsAndTheirRemedies) {
     bring_up();
-    MachineConfig machine = load_machine_file(file()).value();
+    MachineSetup machine = load_machine_file(file()).value();
     machine.axes[0].device = {DeviceName::Kind::Mapped, "/dev/uio77"};  // no such device
     machine.timing.clock_error_limit_us = 16;                           // another configuration than the running one
     machine.timing.time_source = TimeSource::Network;

@@ -18,7 +18,7 @@ struct Example {
 
 class ExamplePrograms : public OwnMachine, public testing::WithParamInterface<Example> {
 protected:
-    void configure(MachineConfig& machine) override {
+    void configure(MachineSetup& machine) override {
         const auto mill = load_machine_file(kExamples + "three-axis.textproto");
         ASSERT_TRUE(mill);
         machine.axes = mill->axes;

@@ -13,7 +13,7 @@ using testing::HasSubstr;
 /// X is far from its switch: it homes for some seconds.
 class Homing : public OwnMachine {
 protected:
-    void configure(MachineConfig& machine) override { machine.axes[0].plant.start_position_mm = 150; }
+    void configure(MachineSetup& machine) override { machine.axes[0].plant.start_position_mm = 150; }
     void SetUp() override {
         OwnMachine::SetUp();
         bring_up();

@@ -122,7 +122,7 @@ TEST_F(LostDevice, AClientEndsBySignalWhateverProcessHangs) {
 
 class LateDevice : public OwnMachine {
 protected:
-    void configure(MachineConfig& machine) override {
+    void configure(MachineSetup& machine) override {
         device_ = "lockstep-" + machine.name + "-late";
         machine.axes[1].device = {DeviceName::Kind::Shared, device_};
     }

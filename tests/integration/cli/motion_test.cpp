@@ -256,7 +256,7 @@ TEST_F(Motion, ContinuesFromALineAfterAStop) {
 
 class MotionAboveWork : public Motion {
 protected:
-    void configure(MachineConfig& machine) override { machine.axes[1].safe_height_mm = -40; }
+    void configure(MachineSetup& machine) override { machine.axes[1].safe_height_mm = -40; }
 };
 
 TEST_F(MotionAboveWork, ContinuesFromALineByTheSafeHeightOfTheConfiguration) {

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 class OneHost : public OwnMachine {
 protected:
-    void configure(MachineConfig& machine) override {
+    void configure(MachineSetup& machine) override {
         machine.network.one_host = true;
         board = shared_states_file(machine.name, machine.network.domain);
     }

@@ -43,7 +43,7 @@ void OwnMachine::SetUp() {
     std::filesystem::create_directories(folder_);
     const NetworkConfig network = own_network();
     lcm_url_ = network.lcm_url;
-    MachineConfig machine;
+    MachineSetup machine;
     machine.name = name_;
     machine.timing.slot_us = 20'000;  // a busy host may stall its processes for 200 ms
     machine.network = network;

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "clients/supervisor/state_directory.hpp"
-#include "core/machine.hpp"
 #include "idl/proto/report.pb.h"
+#include "services/setup/machine_setup.hpp"
 #include "tests/integration/cli/command.hpp"
 
 namespace lockstep {
@@ -26,7 +26,7 @@ protected:
     void SetUp() override;
     void TearDown() override;
     /// A fixture's changes, before the file is written.
-    virtual void configure(MachineConfig&) {}
+    virtual void configure(MachineSetup&) {}
 
     /// Writes a file beside the machine's; returns its path.
     std::string write(const std::string& name, const std::string& text) const;

@@ -58,7 +58,7 @@ private:
 
 class PageOfAMachine : public OwnMachine {
 protected:
-    void configure(MachineConfig& machine) override {
+    void configure(MachineSetup& machine) override {
         port_ = Socket().listen_at();
         machine.web = WebConfig{.port = port_};
     }

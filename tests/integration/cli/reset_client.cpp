@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-bool reset_often(const MachineConfig& machine, int times) {
+bool reset_often(const MachineSetup& machine, int times) {
     forward_dds_log([](const std::string&) {});  // drops DDS's messages at the client's end
     auto client = open_bus<ClientBus>(machine.network, machine.name);
     if (!client || !eventually([&] { return client->commands.matched() > machine.axes.size(); })) { return false; }

@@ -122,7 +122,7 @@ TEST_F(Expiry, AnExpiredMemberWhoseOwnClockIsWrongIsExcludedByTheOthers) {
     EXPECT_THAT(foreign_peer("-", copy, "client"),
                 HasSubstr("refused: DDS Security does not allow this process to join"))
         << "its own clock is right";
-    const MachineConfig machine = config();
+    const MachineSetup machine = config();
     const Ran peer = at_other_time("-390d", {LOCKSTEP_FOREIGN_PEER, std::to_string(machine.network.domain),
                                              machine.name, "-", copy.string(), "client"});
     expect_excluded(peer.out);

@@ -33,7 +33,7 @@ protected:
             fs::copy_file(keys() / (member + file), mixed / (member + file), fs::copy_options::overwrite_existing);
         }
         fs::copy_file(keys() / "identity-ca.pem", mixed / "identity-ca.pem", fs::copy_options::overwrite_existing);
-        const MachineConfig machine = config();
+        const MachineSetup machine = config();
         const auto own = make_authority({machine.name, "permissions"}, valid_for(std::chrono::days(30)));
         const std::string wanted = permissions_xml(
             machine, {as, Role::Client, {}}, "CN=" + member + ",O=" + machine.name, valid_for(std::chrono::days(30)));

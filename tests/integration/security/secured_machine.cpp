@@ -9,7 +9,7 @@ namespace lockstep {
 
 using testing::HasSubstr;
 
-void SecuredMachine::configure(MachineConfig& machine) { machine.security.directory = keys(); }
+void SecuredMachine::configure(MachineSetup& machine) { machine.security.directory = keys(); }
 
 void SecuredMachine::SetUp() {
     OwnMachine::SetUp();
@@ -21,11 +21,11 @@ void SecuredMachine::SetUp() {
     ASSERT_EQ(home.code, 0) << home.out << home.err;
 }
 
-MachineConfig SecuredMachine::config() const { return load_machine_file(file()).value(); }
+MachineSetup SecuredMachine::config() const { return load_machine_file(file()).value(); }
 
 std::unique_ptr<ChildProcess> SecuredMachine::begin_foreign_peer(const std::string& partition, const std::string& keys,
                                                                  const std::string& member, const Words& how) const {
-    const MachineConfig machine = config();
+    const MachineSetup machine = config();
     Words words{std::to_string(machine.network.domain), machine.name, partition, keys, member};
     words.insert(words.end(), how.begin(), how.end());
     return std::make_unique<ChildProcess>(LOCKSTEP_FOREIGN_PEER, words);

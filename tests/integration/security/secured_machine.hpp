@@ -11,10 +11,10 @@ namespace lockstep {
 class SecuredMachine : public OwnMachine {
 protected:
     void SetUp() override;
-    void configure(MachineConfig& machine) override;
+    void configure(MachineSetup& machine) override;
 
     std::filesystem::path keys() const { return folder() / "keys"; }
-    MachineConfig config() const;
+    MachineSetup config() const;
 
     /// Runs the foreign peer and returns its output. partition, keys, member and how: see foreign_peer.cpp.
     std::string foreign_peer(const std::string& partition, const std::string& keys, const std::string& member,

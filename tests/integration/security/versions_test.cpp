@@ -20,7 +20,7 @@ protected:
 
 TEST_F(Versions, OfTheProtocolAreNamedByEveryProcess) {
     bring_up();
-    const MachineConfig machine = load_machine_file(file()).value();
+    const MachineSetup machine = load_machine_file(file()).value();
     const std::string newer = std::to_string(kProtocol + 1);
     const ChildProcess other(LOCKSTEP_FOREIGN_PEER,
                              {std::to_string(machine.network.domain), machine.name, "protocol", newer, "-"});
@@ -31,7 +31,7 @@ TEST_F(Versions, OfTheProtocolAreNamedByEveryProcess) {
 }
 
 TEST_F(Versions, OfTheConfigurationAreNamedAndNothingMoves) {
-    MachineConfig machine = load_machine_file(file()).value();
+    MachineSetup machine = load_machine_file(file()).value();
     machine.axes[0].max_velocity_mm_s = 100;
     const std::string changed = write("changed.textproto", machine_text(machine));
     const ChildProcess coordinator(LOCKSTEP_COORDINATOR, {"--machine", file(), "--log", write("coordinator.log", "")});

@@ -2,7 +2,7 @@
 // and ports that no other process uses. Nothing leaves the host in either case.
 #pragma once
 
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 

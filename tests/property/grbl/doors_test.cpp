@@ -12,8 +12,8 @@ constexpr std::size_t kLines = 30;
 constexpr double kMost_s = 30;  // of a program, so that the test is short
 constexpr std::size_t kLeastMoves = 6;
 
-MachineConfig machine_with_devices() {
-    MachineConfig machine = small_machine();
+MachineSetup machine_with_devices() {
+    MachineSetup machine = small_machine();
     machine.unassigned = {.spindle = WordRule::Ignore, .coolant = WordRule::Ignore};
     return machine;
 }

@@ -60,7 +60,7 @@ double homing_seconds(const AxisConfig& axis) {
 }
 
 /// Places for all axes, each a share of its reach from park.
-std::vector<std::string> targets(const MachineConfig& machine, std::mt19937_64& random) {
+std::vector<std::string> targets(const MachineSetup& machine, std::mt19937_64& random) {
     std::vector<std::string> words;
     for (const AxisConfig& axis : machine.axes) {
         const double share = static_cast<double>(random() % 1001) * 1e-3;
@@ -72,7 +72,7 @@ std::vector<std::string> targets(const MachineConfig& machine, std::mt19937_64& 
 std::string fixed(double value) { return fmt::format("{:.9f}", value); }
 
 /// Two straight moves of all axes and a return, at a random feed.
-std::string gcode_job(const MachineConfig& machine, std::mt19937_64& random) {
+std::string gcode_job(const MachineSetup& machine, std::mt19937_64& random) {
     double path = 0;
     double longest_s = 0;
     for (const AxisConfig& axis : machine.axes) {
@@ -95,7 +95,7 @@ std::string gcode_job(const MachineConfig& machine, std::mt19937_64& random) {
     return text + "\n";
 }
 
-VirtualOptions options_of(const MachineConfig& machine, std::uint64_t seed) {
+VirtualOptions options_of(const MachineSetup& machine, std::uint64_t seed) {
     VirtualOptions options = records::options_of(machine);
     options.seed = seed;
     options.network.delay_min = options.network.delay_max =
@@ -105,7 +105,7 @@ VirtualOptions options_of(const MachineConfig& machine, std::uint64_t seed) {
 
 }  // namespace
 
-TrialCost cost_of_trial(const MachineConfig& machine) {
+TrialCost cost_of_trial(const MachineSetup& machine) {
     double homing_s = 0;
     double jobs_s = 0;
     TrialCost cost;
@@ -122,7 +122,7 @@ TrialCost cost_of_trial(const MachineConfig& machine) {
     return cost;
 }
 
-std::string trouble_of(const MachineConfig& machine, std::uint64_t seed) {
+std::string trouble_of(const MachineSetup& machine, std::uint64_t seed) {
     using records::Tool;
     std::mt19937_64 random(seed);
     try {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
@@ -15,9 +15,9 @@ struct TrialCost {
     double steps = 0;  // of all axes
     bool is_small() const { return loops < 60'000 && steps < 300'000; }
 };
-TrialCost cost_of_trial(const MachineConfig& machine);
+TrialCost cost_of_trial(const MachineSetup& machine);
 
 /// Returns what went wrong; empty if the machine homes, does its jobs, and both tools find no fault.
-std::string trouble_of(const MachineConfig& machine, std::uint64_t seed);
+std::string trouble_of(const MachineSetup& machine, std::uint64_t seed);
 
 }  // namespace lockstep

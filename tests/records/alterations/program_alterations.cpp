@@ -68,10 +68,10 @@ const ProgramChange kProgramChanges[]{
     {"axes_swapped", [](Program& program) { std::swap(program.axes[0], program.axes[1]); }},
 };
 
-bool change_config(Record& record, const std::function<void(MachineConfig&)>& change) {
+bool change_config(Record& record, const std::function<void(MachineSetup&)>& change) {
     return change_each<job_t>(record, [&](job_t& job) {
                if (job.config.empty()) { return false; }
-               MachineConfig machine = parse_machine(job.config).value();
+               MachineSetup machine = parse_machine(job.config).value();
                change(machine);
                job.config = machine_text(machine);
                return true;
@@ -79,23 +79,23 @@ bool change_config(Record& record, const std::function<void(MachineConfig&)>& ch
 }
 
 void add_configurations(std::vector<Alteration>& all) {
-    const auto with = [&](std::string name, std::function<void(MachineConfig&)> change, const Expected& expected) {
+    const auto with = [&](std::string name, std::function<void(MachineSetup&)> change, const Expected& expected) {
         all.push_back({"machine_" + std::move(name), [=](Record& r) { return change_config(r, change); }, expected});
     };
     with(
         "of_other_steps_per_mm",
-        [](MachineConfig& machine) {
+        [](MachineSetup& machine) {
             machine.axes[0].steps_per_mm = 100;
             for (MotorBlock& motor : machine.axes[0].motors) { motor.steps_per_mm = 100; }
         },
         kProgramOtherPlan);
     with(
-        "of_other_acceleration", [](MachineConfig& machine) { machine.axes[0].max_accel_mm_s2 = 700; },
+        "of_other_acceleration", [](MachineSetup& machine) { machine.axes[0].max_accel_mm_s2 = 700; },
         kProgramOtherPlan);
-    with("of_other_slots", [](MachineConfig& machine) { machine.timing.slot_us = 5000; },
+    with("of_other_slots", [](MachineSetup& machine) { machine.timing.slot_us = 5000; },
          {kSaysBad | kSaysRefused, kSaysDoubtful | kSaysUnknown | kSaysBad, kSaysGood, kReplayedAlike});
     with("with_a_further_axis",
-         [](MachineConfig& machine) {
+         [](MachineSetup& machine) {
              machine.axes.push_back(machine.axes.front());
              machine.axes.back().name = "W";
              for (MotorBlock& motor : machine.axes.back().motors) { motor.name.front() = 'W'; }

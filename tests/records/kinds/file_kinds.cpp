@@ -11,7 +11,7 @@ namespace lockstep::records {
 namespace {
 
 Record recorded_file(const std::string& name, const std::string& machine_name) {
-    const MachineConfig machine = example_machine(machine_name);
+    const MachineSetup machine = example_machine(machine_name);
     const auto file = read_program_file("deploy/examples/" + name + ".gcode", machine, parked_mm(machine));
     if (!file) { throw std::runtime_error(name + " is refused"); }
     MemorySink sink;

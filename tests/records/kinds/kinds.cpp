@@ -14,7 +14,7 @@ const std::vector<RecordKind>& record_kinds() {
     return all;
 }
 
-Record recorded_program(const MachineConfig& machine, const std::string& gcode) {
+Record recorded_program(const MachineSetup& machine, const std::string& gcode) {
     MachineRun run(machine);
     run.home();
     run.run(gcode);

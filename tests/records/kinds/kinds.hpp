@@ -33,6 +33,6 @@ const std::vector<RecordKind>& record_kinds();
 
 /// A record of homing and one program on the small mill.
 Record recorded_program(const std::string& gcode);
-Record recorded_program(const MachineConfig& machine, const std::string& gcode);
+Record recorded_program(const MachineSetup& machine, const std::string& gcode);
 
 }  // namespace lockstep::records

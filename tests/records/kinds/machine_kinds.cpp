@@ -36,12 +36,12 @@ VirtualOptions rough_network() {
 }
 
 VirtualOptions lai_planner() {
-    MachineConfig machine = small_plotter();
+    MachineSetup machine = small_plotter();
     machine.coordination = StepMethod::Lai;
     return options_of(machine);
 }
 
-Record by_motors(const MachineConfig& machine, const std::string& gcode, bool is_held = false) {
+Record by_motors(const MachineSetup& machine, const std::string& gcode, bool is_held = false) {
     MachineRun run(machine);
     run_job(run, gcode, is_held);
     run.wait_ms(200);
@@ -49,15 +49,15 @@ Record by_motors(const MachineConfig& machine, const std::string& gcode, bool is
 }
 
 /// A mirrored motor with a gear, and guides that are not square.
-MachineConfig geared() {
-    MachineConfig machine = small_core_xy();
+MachineSetup geared() {
+    MachineSetup machine = small_core_xy();
     machine.kinematics = {.matrix = {{.motor = "Y", .of = {{.axis = "Y", .factor = -1.25}}}},
                           .skews = {{.x = "X", .y = "Y", .mm_per_m = 4}}};
     return read_again(machine);
 }
 
 VirtualOptions rotary() {
-    MachineConfig machine = small_plotter();
+    MachineSetup machine = small_plotter();
     machine.axes[1].name = "A";
     return options_of(machine);
 }

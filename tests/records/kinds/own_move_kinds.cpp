@@ -5,8 +5,8 @@ namespace lockstep::records {
 namespace {
 
 /// The example of two axes, whose limits suit the method.
-MachineConfig machine_for(StepMethod method) {
-    MachineConfig machine = small_plotter();
+MachineSetup machine_for(StepMethod method) {
+    MachineSetup machine = small_plotter();
     for (AxisConfig& axis : machine.axes) {
         axis.method = method;
         if (method == StepMethod::Lai) { axis.max_velocity_mm_s = 40; }
@@ -30,7 +30,7 @@ RecordKind by_method(const std::string& name, StepMethod method) {
             {kSaysGood, kSaysDoubtful, kSaysGood, kSaysGood}};
 }
 
-Record homed(const MachineConfig& machine) {
+Record homed(const MachineSetup& machine) {
     MachineRun run(machine);
     run.home();
     run.wait_ms(300);
@@ -57,8 +57,8 @@ Record y_at_rest_after_homing() {
 }
 
 /// The axes wait on their switches, so that their last steps are made before their zero is set.
-MachineConfig parked_on_switches() {
-    MachineConfig machine = small_plotter();
+MachineSetup parked_on_switches() {
+    MachineSetup machine = small_plotter();
     for (AxisConfig& axis : machine.axes) {
         axis.homing.switch_position_mm = axis.homing.park_mm = 0;
         axis.plant.start_position_mm = 8;

@@ -24,10 +24,10 @@ using Kind = ProgramEvent::Kind;
 
 struct ChannelCurves : testing::Test {
     std::filesystem::path log = test::test_directory() / "run.lcm";
-    MachineConfig machine = with_laser();
+    MachineSetup machine = with_laser();
 
-    static MachineConfig with_laser() {
-        MachineConfig machine = test::two_axes();
+    static MachineSetup with_laser() {
+        MachineSetup machine = test::two_axes();
         machine.outputs = {{.name = "laser",
                             .motor = "X",
                             .use = OutputUse::Spindle,

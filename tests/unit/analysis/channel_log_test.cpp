@@ -1,5 +1,6 @@
 // The changes of inputs and outputs in a log: listed in the order of time, by the names of the machine's file.
 #include "clients/analysis/channels/channel_log.hpp"
+#include "services/setup/machine_setup.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -139,7 +140,7 @@ TEST(ChannelCourses, KeepABoundedNumberOfPointsAndEveryPeak) {
 }
 
 TEST(ChannelChange, HasTheNameOfTheMachinesFile) {
-    MachineConfig machine;
+    MachineSetup machine;
     machine.inputs = {{.name = "door", .motor = "X", .channel = 4, .use = InputUse::Door}};
     machine.outputs = {{.name = "laser", .motor = "X", .use = OutputUse::Spindle, .pwm = PwmConfig{}},
                        {.name = "air", .motor = "X", .use = OutputUse::Flood}};

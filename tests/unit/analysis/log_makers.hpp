@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "core/machine.hpp"
 #include "core/program.hpp"
 #include "core/step/segment.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/documents/program_document.hpp"
+#include "services/setup/machine_setup.hpp"
 #include "services/wire/lcm/lcm_channels.hpp"
 #include "services/wire/lcm/lcm_log.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
@@ -32,7 +32,7 @@ inline std::filesystem::path test_directory() {
 }
 
 /// Two axes of 100 steps per mm.
-inline MachineConfig two_axes() {
+inline MachineSetup two_axes() {
     const std::string axis =
         "steps_per_mm: 100 start_velocity_mm_s: 5 max_velocity_mm_s: 100 max_accel_mm_s2: 1000 "
         "position_min_mm: 0 position_max_mm: 200";
@@ -41,7 +41,7 @@ inline MachineConfig two_axes() {
 
 class LogMaker {
 public:
-    explicit LogMaker(const std::filesystem::path& path, MachineConfig machine = two_axes())
+    explicit LogMaker(const std::filesystem::path& path, MachineSetup machine = two_axes())
         : writer_(LogWriter::open(path).value()), machine_(std::move(machine)) {}
     ~LogMaker() { EXPECT_TRUE(writer_.flush()); }
 
@@ -117,7 +117,7 @@ public:
 
 private:
     LogWriter writer_;
-    MachineConfig machine_;
+    MachineSetup machine_;
     std::array<std::uint64_t, 2> positions_{};  // numbers of positions used so far, by axis
     std::uint64_t job_events_ = 0;
 };

@@ -18,7 +18,7 @@ const std::string kLimits =
     "start_velocity_mm_s: 5 max_velocity_mm_s: 100 max_accel_mm_s2: 1000 position_min_mm: 0 position_max_mm: 200 ";
 
 /// Motors A and B turn by X + Y and X - Y, 100 steps for each mm.
-MachineConfig two_belts() {
+MachineSetup two_belts() {
     const auto axis = [](const std::string& name, const std::string& motor) {
         return "axis { name: \"" + name + "\" steps_per_mm: 100 " + kLimits +
                "homing { in_place: true } motor { name: \"" + motor + "\" } } ";
@@ -29,14 +29,14 @@ MachineConfig two_belts() {
 }
 
 /// Motors X1 and X2 move axis X, 100 steps for each mm. Y has a motor of its own.
-MachineConfig gantry() {
+MachineSetup gantry() {
     return parse_machine("name: \"gantry\" axis { name: \"X\" steps_per_mm: 100 max_skew_mm: 2 " + kLimits +
                          "motor { name: \"X1\" } motor { name: \"X2\" } } axis { name: \"Y\" steps_per_mm: 100 " +
                          kLimits + "}")
         .value();
 }
 
-AskedPath asked(const MachineConfig& machine, const std::vector<std::vector<double>>& places) {
+AskedPath asked(const MachineSetup& machine, const std::vector<std::vector<double>>& places) {
     const auto program = std::make_shared<const RecordedProgram>(test::path_through(places));
     return AskedPath::of(machine, program->head(), program).value();
 }
@@ -157,7 +157,7 @@ Run run_of(double speed, double acceleration) {
 }
 
 TEST(AxisMeter, DerivesSpeedAndAccelerationOfAnAxisFromAllItsMotors) {
-    const MachineConfig machine = two_belts();
+    const MachineSetup machine = two_belts();
     AxisMeter meter(machine, std::make_shared<const Kinematics>(machine), true);
     meter.take(MotorIndex{0}, run_of(0.01, 1e-5));
     meter.take(MotorIndex{1}, run_of(0.01, -1e-5));
@@ -171,7 +171,7 @@ TEST(AxisMeter, DerivesSpeedAndAccelerationOfAnAxisFromAllItsMotors) {
 }
 
 TEST(AxisMeter, LeavesOutFramesThatLackAMotor) {
-    const MachineConfig machine = two_belts();
+    const MachineSetup machine = two_belts();
     AxisMeter meter(machine, std::make_shared<const Kinematics>(machine), true);
     meter.take(MotorIndex{0}, run_of(0.01, 0));
     EXPECT_TRUE(meter.finish().empty());

@@ -17,8 +17,8 @@ using test::path_through;
 using testing::IsEmpty;
 
 /// A machine with a slide X and a rotary axis A.
-MachineConfig slide_and_table() {
-    MachineConfig machine;
+MachineSetup slide_and_table() {
+    MachineSetup machine;
     for (const char* name : {"X", "A"}) { machine.axes.push_back({.name = name, .steps_per_mm = 100}); }
     return machine;
 }
@@ -31,7 +31,7 @@ MoveLog move(std::int64_t x_steps, std::int64_t a_steps, double deviation) {
 
 TEST(ReportUnits, DeviationOfRotaryAxesIsInDegreesAndOfBothKindsInBoth) {
     const std::vector<MoveLog> moves{move(5, 0, 0.01), move(0, 5, 0.02), move(5, 0, 0.005), move(5, 5, 0.03)};
-    const MachineConfig machine = slide_and_table();
+    const MachineSetup machine = slide_and_table();
     EXPECT_EQ(name_of(motion_unit(machine, Kinematics(machine), moves[0])), "mm");
     EXPECT_EQ(name_of(motion_unit(machine, Kinematics(machine), moves[1])), "deg");
     EXPECT_EQ(name_of(motion_unit(machine, Kinematics(machine), moves[3])), "mm and deg");
@@ -43,7 +43,7 @@ TEST(ReportUnits, DeviationOfRotaryAxesIsInDegreesAndOfBothKindsInBoth) {
 
 TEST(ReportUnits, DeviationOfMovesThatAreNotKeptIsInAUnitTrueForAllAxes) {
     const std::vector<MoveLog> moves{move(5, 0, 0.01)};
-    MachineConfig machine = slide_and_table();
+    MachineSetup machine = slide_and_table();
     EXPECT_EQ(to_text(deviations(machine, Kinematics(machine), moves, 2, 0.05)), "0.0500 mm and 0.0500 deg");
     machine.axes.pop_back();
     EXPECT_EQ(to_text(deviations(machine, Kinematics(machine), moves, 2, 0.05)), "0.0500 mm");

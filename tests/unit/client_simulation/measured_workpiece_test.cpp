@@ -18,7 +18,7 @@ namespace {
 
 class MeasuredWorkpiece : public testing::Test {
 protected:
-    MachineConfig machine = load_machine_file("deploy/examples/measure.textproto").value();
+    MachineSetup machine = load_machine_file("deploy/examples/measure.textproto").value();
     // A step by which the axes and the workpiece may differ, and a step by which touches are rounded.
     double within_mm = 2 / machine.axes[0].steps_per_mm;
 

@@ -17,7 +17,7 @@ TEST(ProbeExample, SetsTheZeroOfTheWorkBelowItsPlate) {
     constexpr double kPlate_mm = 62.5;
     const auto loaded = load_machine_file("deploy/examples/probe.textproto");
     ASSERT_TRUE(loaded) << loaded.error().front().message;
-    const MachineConfig& machine = *loaded;
+    const MachineSetup& machine = *loaded;
     GcodeSetup setup = program_setup("deploy/examples/probe.gcode", machine, parked_mm(machine));
     setup.awaits_touches = true;
     ProgramText text(LineReader::open("deploy/examples/probe.gcode").value(), setup);

@@ -21,8 +21,7 @@ std::string bytes_of(const std::filesystem::path& path) {
     return text.str();
 }
 
-SimulationResult simulate_into(const std::filesystem::path& path, const MachineConfig& machine,
-                               const Program& program) {
+SimulationResult simulate_into(const std::filesystem::path& path, const MachineSetup& machine, const Program& program) {
     auto log = NewLogFile::begin(path, false).value();
     const auto result = simulate(machine, program, log.sink());
     EXPECT_TRUE(log.keep().has_value());
@@ -30,7 +29,7 @@ SimulationResult simulate_into(const std::filesystem::path& path, const MachineC
 }
 
 TEST(Simulate, InMotionForAsLongAsPlanned) {
-    const MachineConfig machine = example("three-axis");
+    const MachineSetup machine = example("three-axis");
     const auto program = load_gcode_file("deploy/examples/plate.gcode", machine, parked_mm(machine));
     NoSink nowhere;
     const auto result = simulate(machine, *program, nowhere);
@@ -40,7 +39,7 @@ TEST(Simulate, InMotionForAsLongAsPlanned) {
 }
 
 TEST(Simulate, ThroughEveryPauseToTheEnd) {
-    const MachineConfig machine = example("two-axis");
+    const MachineSetup machine = example("two-axis");
     NoSink nowhere;
     const Program program = program_of(machine, "G0 X15\nM0\nM0\nG0 X20\nM0\nG0 X25 Y30\nM0\n");
     const auto result = simulate(machine, program, nowhere);
@@ -51,8 +50,8 @@ TEST(Simulate, ThroughEveryPauseToTheEnd) {
 }
 
 /// A spindle that takes 2 s to S1000, for which programs wait so long at most.
-MachineConfig with_spindle(double spin_up_s) {
-    MachineConfig machine = example("two-axis");
+MachineSetup with_spindle(double spin_up_s) {
+    MachineSetup machine = example("two-axis");
     machine.inputs = {{.name = "ready", .motor = "X", .channel = 3, .use = InputUse::Program, .number = 3}};
     machine.outputs = {{.name = "spindle",
                         .motor = "X",
@@ -67,11 +66,11 @@ MachineConfig with_spindle(double spin_up_s) {
 TEST(Simulate, WaitsForASimulatedSpindleAndTellsWhatToDoAboutASlowOne) {
     NoSink nowhere;
     const std::string text = "M3 S1000\nG1 X15 F1200\nM5\n";
-    const MachineConfig patient = with_spindle(5);
+    const MachineSetup patient = with_spindle(5);
     const auto done = simulate(patient, program_of(patient, text), nowhere);
     ASSERT_TRUE(done.has_value());
     EXPECT_EQ(done->outcome, JobOutcome::Done) << done->trouble;
-    const MachineConfig hasty = with_spindle(0.5);
+    const MachineSetup hasty = with_spindle(0.5);
     const auto stopped = simulate(hasty, program_of(hasty, text), nowhere);
     ASSERT_TRUE(stopped.has_value());
     EXPECT_EQ(stopped->outcome, JobOutcome::Failed);
@@ -82,7 +81,7 @@ TEST(Simulate, WaitsForASimulatedSpindleAndTellsWhatToDoAboutASlowOne) {
 }
 
 TEST(Simulate, TheSameRecordByteForByte) {
-    const MachineConfig machine = example("two-axis");
+    const MachineSetup machine = example("two-axis");
     const Program program = program_of(machine, "G0 X30 Y40\nG0 X5 Y5\n");
     const auto directory = test::test_directory();
     simulate_into(directory / "one.lcm", machine, program);
@@ -91,7 +90,7 @@ TEST(Simulate, TheSameRecordByteForByte) {
 }
 
 TEST(Simulate, ItsLogIsAnalysedWithNothingMissing) {
-    const MachineConfig machine = example("two-axis");
+    const MachineSetup machine = example("two-axis");
     const auto path = test::test_directory() / "run.lcm";
     const auto result = simulate_into(path, machine, program_of(machine, "G0 X30 Y40\nG0 X5 Y5\n"));
     const auto found = analysis::analyze_log(path);
@@ -108,7 +107,7 @@ TEST(Simulate, ItsLogIsAnalysedWithNothingMissing) {
 }
 
 TEST(Simulate, AHomingThatFailsIsAResult) {
-    MachineConfig machine = example("two-axis");
+    MachineSetup machine = example("two-axis");
     machine.axes[0].plant.start_position_mm = 0;
     machine.axes[0].homing.switch_position_mm = -500;  // out of reach
     NoSink nowhere;
@@ -120,7 +119,7 @@ TEST(Simulate, AHomingThatFailsIsAResult) {
 }
 
 TEST(Simulate, IsCancelledByTheCaller) {
-    const MachineConfig machine = example("two-axis");
+    const MachineSetup machine = example("two-axis");
     NoSink nowhere;
     const SimulationHooks hooks{.progress = [](double) { return false; }, .stopwatch = {}};
     EXPECT_FALSE(simulate(machine, program_of(machine, "G0 X30\n"), nowhere, hooks).has_value());
@@ -134,7 +133,7 @@ TEST(NewLogFile, ReplacesALogButNothingElse) {
     EXPECT_FALSE(NewLogFile::begin(directory, true).has_value());
     EXPECT_TRUE(NewLogFile::begin(notes, true).has_value());
     EXPECT_EQ(bytes_of(notes), "not a log\n");  // not kept: nothing has changed
-    const MachineConfig machine = example("two-axis");
+    const MachineSetup machine = example("two-axis");
     simulate_into(directory / "run.lcm", machine, program_of(machine, "G0 X6\n"));
     simulate_into(directory / "run.lcm", machine, program_of(machine, "G0 X7\n"));
 }

@@ -92,7 +92,7 @@ protected:
 
     TemporaryDirectory directory_;
     std::filesystem::path file_ = directory_.path() / "long.gcode";
-    MachineConfig machine_ = test::example("three-axis");
+    MachineSetup machine_ = test::example("three-axis");
 };
 
 /// Lines of 0.01 mm on a circle.

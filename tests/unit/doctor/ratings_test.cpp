@@ -63,7 +63,7 @@ TEST(DoctorOnTheBuffer, ASmallerOneThanAbsentPeersFillMaySilenceAPart) {
 }
 
 TEST(DoctorOnStates, ManyAxesOnOneHostShareTheirMemory) {
-    MachineConfig machine;
+    MachineSetup machine;
     machine.axes.resize(15);
     EXPECT_EQ(rate_states(machine, "").rating, Rating::Good);
     machine.axes.resize(16);
@@ -97,8 +97,7 @@ TEST(DoctorOnStalls, AreRatedByTheTimingsAllowance) {
 
 TEST(DoctorOnStalls, ProposedTimingIsAcceptedAndAllowsTwiceTheMeasuredStall) {
     for (const double worst_us : {0.0, 80.0, 400.0, 3'000.0, 20'000.0, 50'000.0, 240'000.0}) {
-        const ProtocolTiming today{.segment_entries = worst_us > 1000 ? 64 : 1024};
-        MachineConfig machine{.name = "m", .timing = timing_for({.worst_us = worst_us}, today)};
+        MachineSetup machine{{.name = "m", .timing = timing_for({.worst_us = worst_us})}};
         machine.axes = {{.name = "X",
                          .steps_per_mm = 80,
                          .start_velocity_mm_s = 10,

@@ -104,7 +104,7 @@ TEST(Boards, HaveNoSwitchesSoThatInputs0To2AreAsTheOthers) {
 
 TEST(Boards, AreAPartOfTheConfigurationsHash) {
     const auto one = parse_machine(with_blocks({kIo, kAir})).value();
-    MachineConfig other = one;
+    MachineSetup other = one;
     other.boards[0].host = "shed";
     EXPECT_NE(config_hash(one), config_hash(other));
 }

@@ -58,7 +58,7 @@ TEST(BoardLinks, AreReadAgainAsTheyWereWrittenAndArePartOfTheHash) {
     const auto again = parse_machine(machine_text(*read));
     ASSERT_TRUE(again) << to_text("m", again.error());
     EXPECT_EQ(again->board_links, read->board_links);
-    MachineConfig other = *read;
+    MachineSetup other = *read;
     other.board_links[0].link.place = "/dev/ttyUSB1";
     EXPECT_NE(config_hash(*read), config_hash(other));
 }

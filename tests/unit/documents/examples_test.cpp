@@ -12,21 +12,21 @@ namespace {
 
 const std::filesystem::path kExamples = LOCKSTEP_EXAMPLES;
 
-MachineConfig machine(const std::string& file) {
+MachineSetup machine(const std::string& file) {
     auto loaded = load_machine_file(kExamples / file);
     if (loaded) { return *std::move(loaded); }
     ADD_FAILURE() << to_text(file, loaded.error());
     return {};
 }
 
-std::vector<double> parked(const MachineConfig& machine) {
+std::vector<double> parked(const MachineSetup& machine) {
     std::vector<double> places;
     for (const AxisConfig& axis : machine.axes) { places.push_back(axis.homing.park_mm); }
     return places;
 }
 
 Program plate() {
-    const MachineConfig mill = machine("three-axis.textproto");
+    const MachineSetup mill = machine("three-axis.textproto");
     auto program = load_gcode_file(kExamples / "plate.gcode", mill, parked(mill));
     if (program) { return *std::move(program); }
     ADD_FAILURE() << to_text("plate.gcode", program.error());
@@ -57,7 +57,7 @@ TEST(Examples, HomingIsShort) {
 class ExampleProgram : public testing::TestWithParam<const char*> {};
 
 TEST_P(ExampleProgram, BeginsAndEndsParked) {
-    const MachineConfig mill = machine("three-axis.textproto");
+    const MachineSetup mill = machine("three-axis.textproto");
     const auto file = read_program_file(kExamples / GetParam(), mill, parked(mill));
     ASSERT_TRUE(file) << to_text(GetParam(), file.error());
     EXPECT_TRUE(file->reading.notes.empty());
@@ -67,7 +67,7 @@ TEST_P(ExampleProgram, BeginsAndEndsParked) {
 }
 
 TEST_P(ExampleProgram, CanBeRunAgainWithTheOffsetsThatItLeaves) {
-    const MachineConfig mill = machine("three-axis.textproto");
+    const MachineSetup mill = machine("three-axis.textproto");
     const auto first = read_program_file(kExamples / GetParam(), mill, parked(mill));
     ASSERT_TRUE(first) << to_text(GetParam(), first.error());
     const auto again = read_program_file(kExamples / GetParam(), mill, parked(mill), {}, first->reading.values);
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Programs, ExampleProgram,
                          testing::Values("plate.gcode", "pocket.gcode", "drilling.gcode", "contour.gcode"));
 
 TEST(Examples, ThePlateBeginsAndEndsParked) {
-    const MachineConfig mill = machine("three-axis.textproto");
+    const MachineSetup mill = machine("three-axis.textproto");
     const Program program = plate();
     EXPECT_EQ(program.name, "plate.gcode");
     EXPECT_EQ(program.start_mm, parked(mill));
@@ -88,7 +88,7 @@ TEST(Examples, ThePlateBeginsAndEndsParked) {
 }
 
 /// The time at feed alone, with rapids at the axes' top speed: a lower bound of the job's duration.
-double least_seconds(const Program& program, const MachineConfig& machine) {
+double least_seconds(const Program& program, const MachineSetup& machine) {
     double seconds = 0;
     std::vector<double> at = program.start_mm;
     for (const Block& block : program.blocks) {
@@ -114,14 +114,14 @@ TEST(Examples, ThePlateTakesAboutHalfAMinute) {
 }
 
 TEST(Examples, ThePlatePausesOnlyOnRequest) {
-    const MachineConfig mill = machine("three-axis.textproto");
+    const MachineSetup mill = machine("three-axis.textproto");
     const auto asked =
         load_gcode_file(kExamples / "plate.gcode", mill, parked(mill), {.pause_at_m1 = true, .skip_deletable = false});
     EXPECT_EQ(asked.value().blocks.size(), plate().blocks.size() + 1);
 }
 
 TEST(ProgramFile, ReportsTheFilesErrorsAndAStartThatDoesNotFit) {
-    const MachineConfig plotter = machine("two-axis.textproto");
+    const MachineSetup plotter = machine("two-axis.textproto");
     const auto without_z = load_gcode_file(kExamples / "plate.gcode", plotter, parked(plotter));
     ASSERT_FALSE(without_z.has_value());
     EXPECT_EQ(without_z.error().front().line, 7);

@@ -12,7 +12,7 @@
 namespace lockstep {
 namespace {
 
-MachineConfig parse(std::string_view text) {
+MachineSetup parse(std::string_view text) {
     auto machine = parse_machine(text);
     if (machine) { return *std::move(machine); }
     ADD_FAILURE() << to_text("machine", machine.error());
@@ -20,7 +20,7 @@ MachineConfig parse(std::string_view text) {
 }
 
 TEST(MachineFile, AbsentKeysHaveTheDocumentedDefaults) {
-    const MachineConfig machine = parse(kShortest);
+    const MachineSetup machine = parse(kShortest);
     EXPECT_EQ(machine.tick_ns, 1000);
     EXPECT_EQ(machine.timing.slot_us, 10'000);
     EXPECT_EQ(machine.timing.stall_slots, 10);
@@ -53,17 +53,17 @@ TEST(MachineFile, TimeComesFromOneHostByDefault) {
 
 /// On one host such a device has the only clock that is estimated.
 TEST(MachineFile, ADeviceWithItsOwnClockHasAClockErrorLimit) {
-    const MachineConfig machine =
+    const MachineSetup machine =
         parse(axis_with("device: \"uio:/dev/uio0\"") + "timing { slot_us: 4000 clock_error_limit_us: 400 }");
     EXPECT_EQ(machine.axes[0].device, (DeviceName{DeviceName::Kind::Mapped, "/dev/uio0"}));
-    const MachineConfig again = parse(machine_text(machine));
+    const MachineSetup again = parse(machine_text(machine));
     EXPECT_EQ(again.timing.time_source, TimeSource::Shared);
     EXPECT_EQ(again.timing.clock_error_limit_us, 400);
     EXPECT_EQ(again.axes[0].device, machine.axes[0].device);
 }
 
 TEST(MachineFile, AnAxisHasASafeHeightOnlyIfItIsGiven) {
-    const MachineConfig machine = parse(axis_with("safe_height_mm: 40"));
+    const MachineSetup machine = parse(axis_with("safe_height_mm: 40"));
     EXPECT_EQ(machine.axes.at(0).safe_height_mm, 40);
     EXPECT_EQ(parse(machine_text(machine)).axes.at(0).safe_height_mm, 40);
     EXPECT_NE(config_hash(machine), config_hash(parse(kShortest)));
@@ -71,12 +71,12 @@ TEST(MachineFile, AnAxisHasASafeHeightOnlyIfItIsGiven) {
 }
 
 TEST(MachineFile, JogsHoldForTwentyMillisecondsAndNotUnhomedUnlessItSaysSo) {
-    const MachineConfig usual = parse(kShortest);
+    const MachineSetup usual = parse(kShortest);
     EXPECT_EQ(usual.timing.jog_hold_us, 20'000);
     EXPECT_FALSE(usual.axes.at(0).unhomed_jog_mm_s);
-    const MachineConfig slow = parse(axis_with("unhomed_jog_mm_s: 2.5"));
+    const MachineSetup slow = parse(axis_with("unhomed_jog_mm_s: 2.5"));
     EXPECT_EQ(parse(machine_text(slow)).axes.at(0).unhomed_jog_mm_s, 2.5);
-    const MachineConfig patient = parse(machine_with("timing { jog_hold_ms: 60 }"));
+    const MachineSetup patient = parse(machine_with("timing { jog_hold_ms: 60 }"));
     EXPECT_EQ(parse(machine_text(patient)).timing.jog_hold_us, 60'000);
     EXPECT_EQ(config_hash(parse(machine_with("timing { jog_hold_ms: 20 }"))), config_hash(usual));
 }
@@ -103,7 +103,7 @@ TEST(MachineFile, SmallRingsHaveRoomForOutputs) {
 
 TEST(MachineFile, WordsForMissingDevicesAreRefusedExceptCoolant) {
     EXPECT_EQ(parse(kShortest).unassigned, UnassignedWords{});
-    const MachineConfig machine = parse(machine_with("unassigned { spindle: IGNORE coolant: REFUSE }"));
+    const MachineSetup machine = parse(machine_with("unassigned { spindle: IGNORE coolant: REFUSE }"));
     EXPECT_EQ(machine.unassigned.spindle, WordRule::Ignore);
     EXPECT_EQ(machine.unassigned.outputs, WordRule::Refuse);
     EXPECT_EQ(machine.unassigned.inputs, WordRule::Refuse);
@@ -113,14 +113,14 @@ TEST(MachineFile, WordsForMissingDevicesAreRefusedExceptCoolant) {
 
 TEST(MachineFile, ThePageIsServedToThisHostAloneUnlessConfigured) {
     EXPECT_FALSE(parse(kShortest).web);
-    const MachineConfig machine = parse(machine_with("web { }"));
+    const MachineSetup machine = parse(machine_with("web { }"));
     EXPECT_EQ(machine.web, WebConfig{});
     EXPECT_EQ(machine.web->address, "127.0.0.1");
     EXPECT_EQ(config_hash(machine), config_hash(parse(kShortest))) << "the page is no part of the machine";
     EXPECT_TRUE(parse(machine_with("web { address: \"127.9.9.9\" }")).web);
     EXPECT_TRUE(parse(machine_with("web { address: \"::1\" }")).web);
     const std::string files = " certificate_file: \"/a.crt\" key_file: \"/a.key\" host_names: \"mill\" }";
-    const MachineConfig open = parse(machine_with("web { address: \"::\" port: 443" + files));
+    const MachineSetup open = parse(machine_with("web { address: \"::\" port: 443" + files));
     EXPECT_EQ(open.web, (WebConfig{"::", 443, "/a.crt", "/a.key", {"mill"}}));
     EXPECT_EQ(parse(machine_text(open)).web, open.web);
 }
@@ -176,7 +176,7 @@ TEST(MachineFile, PlantDefaultsLeaveTheMotorAReserve) {
 }
 
 TEST(MachineFile, ZeroIsAValueAndNotAnAbsence) {
-    const MachineConfig machine = parse(axis_with("plant { start_position_mm: 0 }"));
+    const MachineSetup machine = parse(axis_with("plant { start_position_mm: 0 }"));
     EXPECT_EQ(machine.axes.at(0).plant.start_position_mm, 0);
 }
 
@@ -192,7 +192,7 @@ TEST(MachineFile, ItsTextGivesTheSameMachineBack) {
           machine_with("subroutine_directory: \"/srv/subroutines\""), machine_with("web { }"),
           machine_with("web { address: \"0.0.0.0\" port: 443 certificate_file: \"/a.crt\" key_file: \"/a.key\" "
                        "host_names: \"mill\" host_names: \"mill.example\" }")}) {
-        const MachineConfig machine = parse(text);
+        const MachineSetup machine = parse(text);
         EXPECT_EQ(machine_text(parse(machine_text(machine))), machine_text(machine));
         EXPECT_EQ(config_hash(parse(machine_text(machine))), config_hash(machine));
     }
@@ -210,10 +210,10 @@ TEST(MachineFile, TheHashDependsOnTheMeaningNotOnTheText) {
 TEST(MachineFile, TheHashIsTheSameOnEveryHost) { EXPECT_EQ(config_hash(parse(kShortest)), 14268460011038206234U); }
 
 TEST(MachineFile, AnUnattendedJobRunsOnUnlessTheFileSaysOtherwise) {
-    const MachineConfig usual = parse(kShortest);
+    const MachineSetup usual = parse(kShortest);
     EXPECT_EQ(usual.unattended_job, UnattendedJob::RunsOn);
     EXPECT_EQ(config_hash(parse(machine_with("unattended_job: RUN_ON"))), config_hash(usual));
-    const MachineConfig held = parse(machine_with("unattended_job: BE_HELD"));
+    const MachineSetup held = parse(machine_with("unattended_job: BE_HELD"));
     EXPECT_EQ(held.unattended_job, UnattendedJob::IsHeld);
     EXPECT_EQ(parse(machine_text(held)).unattended_job, UnattendedJob::IsHeld);
     EXPECT_NE(config_hash(held), config_hash(usual));

@@ -11,8 +11,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// The coordinator and X on "mill"; Y and Z on their own boards; a turntable without a host.
-MachineConfig boards() {
-    MachineConfig machine{.name = "mill", .coordinator_host = "mill.lan"};
+MachineSetup boards() {
+    MachineSetup machine{{.name = "mill", .coordinator_host = "mill.lan"}};
     machine.axes = {{.name = "X", .host = "mill"},
                     {.name = "Y", .host = "Board-Y"},
                     {.name = "Z", .host = "board-z.lan"},
@@ -44,7 +44,7 @@ TEST(AxisToRun, IsTheNamedOneOrTheOnlyOneOfThisHost) {
 TEST(AxisToRun, ListsTheAxesIfNoneOrSeveralFit) {
     EXPECT_THAT(axis_to_run(boards(), "W", "mill").error(), HasSubstr("no axis W; it has: X (mill) Y (Board-Y)"));
     EXPECT_THAT(axis_to_run(boards(), "", "laptop").error(), HasSubstr("no axis on this host, laptop"));
-    MachineConfig two = boards();
+    MachineSetup two = boards();
     two.axes[1].host = "mill";
     EXPECT_THAT(axis_to_run(two, "", "mill").error(), HasSubstr("several axes on this host, mill: X Y; name one"));
 }

@@ -12,6 +12,7 @@
 #include "core/protocol/frame_room.hpp"
 #include "core/protocol/rules.hpp"
 #include "core/protocol/timing.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 namespace {
@@ -65,7 +66,7 @@ Slot most_slots_to_braking(const ProtocolTiming& t) {
 /// How long a move keeps its speed behind a touch at most, by the rule that refuses moves that go on too far.
 double ms_to_braking(const ProtocolTiming& t) {
     constexpr double kAtOnce = 1e300;
-    MachineConfig machine;
+    MachineSetup machine;
     machine.timing = t;
     return 1000 * overshoot_mm(machine, {.debounce_ms = 1}, 1, kAtOnce);
 }

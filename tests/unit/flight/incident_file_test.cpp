@@ -82,7 +82,7 @@ TEST_F(IncidentFile, ReportsAnImpossibleDirectoryWithTheRemedy) {
 }
 
 TEST_F(IncidentFile, EveryKindOfEventComesBack) {
-    MachineConfig machine{.name = "mill"};
+    MachineSetup machine{{.name = "mill"}};
     for (const char* name : {"X", "Y"}) { machine.axes.push_back({.name = name}); }
     for (int kind = 0; kind <= static_cast<int>(FlightKind::StepsCorrected); ++kind) {
         const NumberedEvent event{3,
@@ -103,7 +103,7 @@ TEST_F(IncidentFile, EveryKindOfEventComesBack) {
 }
 
 TEST_F(IncidentFile, RefusesADetailThatNoEventHas) {
-    const MachineConfig machine{.name = "mill"};
+    const MachineSetup machine{{.name = "mill"}};
     flight_event_t message = to_lcm(source(), machine, {1, noted(5)});
     for (const std::int32_t detail : {-1, 256}) {
         message.detail = detail;

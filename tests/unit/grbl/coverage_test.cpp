@@ -96,7 +96,7 @@ TEST(GrblTables, NameEveryNumberThatIsSent) {
 }
 
 TEST(GrblCoverage, HasEverySettingAndWhetherItIsFixed) {
-    MachineConfig machine = mill();
+    MachineSetup machine = mill();
     machine.axes.resize(6, machine.axes[0]);
     const auto rows = rows_of("setting");
     std::set<int> documented;

@@ -8,8 +8,8 @@ using testing::HasSubstr;
 using testing::Not;
 using Spindle = ProgramDevices::Spindle;
 
-MachineConfig machine_with_devices() {
-    MachineConfig machine = small_machine();
+MachineSetup machine_with_devices() {
+    MachineSetup machine = small_machine();
     machine.unassigned.spindle = WordRule::Ignore;
     return machine;
 }

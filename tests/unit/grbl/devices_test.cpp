@@ -80,7 +80,7 @@ TEST_F(Devices, AreInTheStatusBesideTheOverrides) {
 }
 
 TEST_F(Devices, WithOutputsAreShownAsTheirDevicesReportThem) {
-    MachineConfig machine = mill();
+    MachineSetup machine = mill();
     machine.outputs = {
         {.name = "laser", .motor = "X", .channel = 1, .use = OutputUse::Spindle, .pwm = PwmConfig{5000, 1000}},
         {.name = "reverse", .motor = "X", .channel = 0, .use = OutputUse::SpindleReverse},

@@ -63,7 +63,7 @@ TEST_F(Sender, SeesWhichSwitchesAreClosed) {
 }
 
 TEST_F(Sender, SeesThatAProbeTouches) {
-    MachineConfig machine = mill();
+    MachineSetup machine = mill();
     machine.inputs = {{.name = "plate", .motor = "Y", .channel = 3, .use = InputUse::Probe, .number = 0}};
     view.closed_inputs = letters_of_inputs(machine, [](std::size_t) { return 8U; });
     grbl.see(view);
@@ -71,7 +71,7 @@ TEST_F(Sender, SeesThatAProbeTouches) {
 }
 
 TEST_F(Sender, SeesThatADoorIsOpenOrAnEmergencyStopIsPressed) {
-    MachineConfig machine = mill();
+    MachineSetup machine = mill();
     machine.inputs = {{.name = "stop", .motor = "Y", .channel = 3, .use = InputUse::EmergencyStop},
                       {.name = "door", .motor = "X", .channel = 4, .use = InputUse::Door}};
     view.closed_switches = "X";
@@ -135,7 +135,7 @@ TEST_F(Sender, WritesSettingsThatAreInForceLater) {
     EXPECT_THAT(send("$111=1500\n"), ElementsAre()) << "answered when it is kept";
     ASSERT_THAT(asked(), ElementsAre(Kind::KeepSettings));
     EXPECT_EQ(requests[0].settings, (KeptSettings{{"Y", "max_velocity_mm_s", "25"}}));
-    MachineConfig next = mill();
+    MachineSetup next = mill();
     next.axes[1].max_velocity_mm_s = 25;
     grbl.see_next(next);
     grbl.answer(requests[0].number, {.is_done = true});
@@ -164,7 +164,7 @@ TEST_F(Sender, WritesEachSettingAsKeysOfTheMachinesFile) {
                   {"X", "homing.pulloff_mm", "1"}, {"Y", "homing.pulloff_mm", "1"}, {"Z", "homing.pulloff_mm", "1"}}));
     EXPECT_EQ(keys("$25=600")[2], (KeptSetting{"Z", "homing.search_velocity_mm_s", "10"}));
     EXPECT_EQ(keys("$24=30")[0], (KeptSetting{"X", "homing.latch_velocity_mm_s", "0.5"}));
-    MachineConfig upward = mill();
+    MachineSetup upward = mill();
     upward.axes[2].homing.toward_min = false;
     grbl.see_next(upward);
     EXPECT_EQ(keys("$132=150"), (KeptSettings{{"Z", "position_min_mm", "50"}})) << "its switch is above";

@@ -58,7 +58,7 @@ protected:
 
     /// Configures a machine that accepts the words for devices.
     void assign_devices() {
-        MachineConfig machine = mill();
+        MachineSetup machine = mill();
         machine.unassigned = {
             .spindle = WordRule::Ignore, .outputs = WordRule::Ignore, .tool_change = ToolChange::GoOn};
         std::destroy_at(&grbl);

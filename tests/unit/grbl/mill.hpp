@@ -1,12 +1,12 @@
 // A machine of three axes.
 #pragma once
 
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep::grbl {
 
-inline MachineConfig mill() {
-    MachineConfig machine{.name = "mill"};
+inline MachineSetup mill() {
+    MachineSetup machine{{.name = "mill"}};
     for (const char* name : {"X", "Y", "Z"}) {
         AxisConfig axis{.name = name,
                         .steps_per_mm = 100,

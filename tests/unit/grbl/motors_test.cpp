@@ -13,15 +13,15 @@ namespace {
 using testing::ElementsAre;
 using testing::StartsWith;
 
-MachineConfig gantry() {
-    MachineConfig machine = mill();
+MachineSetup gantry() {
+    MachineSetup machine = mill();
     machine.axes[1].motors = {{.name = "Y1", .steps_per_mm = 100}, {.name = "Y2", .steps_per_mm = 100}};
     set_steps_of_axes(machine);
     return machine;
 }
 
-MachineConfig two_belts() {
-    MachineConfig machine = mill();
+MachineSetup two_belts() {
+    MachineSetup machine = mill();
     machine.axes[0].motors = {{.name = "A", .steps_per_mm = 100}};
     machine.axes[1].motors = {{.name = "B", .steps_per_mm = 100}};
     machine.kinematics.core_xy = CoreXy{"X", "Y"};
@@ -30,7 +30,7 @@ MachineConfig two_belts() {
 }
 
 /// The view while a limit switch of this motor is closed and the machine has its fault.
-MachineView view_at_limit(const MachineConfig& machine, std::size_t motor) {
+MachineView view_at_limit(const MachineSetup& machine, std::size_t motor) {
     const Kinematics kinematics(machine);
     std::vector<AxisState> motors(kinematics.motors().size());
     motors[motor].switches.limit_min = true;
@@ -49,7 +49,7 @@ MachineView view_at_limit(const MachineConfig& machine, std::size_t motor) {
     return view_of(machine, state, by_axis, std::vector<double>(axes.size()));
 }
 
-std::string setting(const MachineConfig& machine, int number) {
+std::string setting(const MachineSetup& machine, int number) {
     const auto all = settings_of(machine, {});
     return std::ranges::find(all, number, &Setting::number)->value;
 }
@@ -77,7 +77,7 @@ TEST(MotorsOfASender, HaveTheStepsOfTheirAxissSetting) {
 }
 
 TEST(MotorsOfASender, WithStepsOfTheirOwnHaveNoSettingOfTheirAxis) {
-    MachineConfig machine = gantry();
+    MachineSetup machine = gantry();
     machine.axes[1].motors[1].steps_per_mm = 80;
     ReportOptions options;
     const auto written = write_setting(machine, 101, 50, options);

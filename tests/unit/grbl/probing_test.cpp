@@ -10,8 +10,8 @@ using testing::Not;
 
 constexpr std::size_t kProbe = 0;
 
-MachineConfig machine_with_probe() {
-    MachineConfig machine = small_machine();
+MachineSetup machine_with_probe() {
+    MachineSetup machine = small_machine();
     machine.inputs = {
         {.name = "plate", .motor = "X", .channel = 3, .use = InputUse::Probe, .number = 0, .max_overshoot_mm = 20}};
     return machine;

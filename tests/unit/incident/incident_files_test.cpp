@@ -27,7 +27,7 @@ protected:
 
     /// The notes of axis X: it vetoed frame 17 at `tick` since it had received nothing from Y.
     fs::path write_veto(std::int64_t tick, std::int64_t wall_us = 1'000'000,
-                        const MachineConfig& machine = small_machine()) const {
+                        const MachineSetup& machine = small_machine()) const {
         const FlightSource source{.machine = "rig",
                                   .process = "axis-X",
                                   .incarnation = 7,
@@ -133,7 +133,7 @@ TEST_F(IncidentFiles, TheSameTwiceCountsOnce) {
 }
 
 TEST_F(IncidentFiles, NameMotorsThatAreNotTheOnlyOnesOfTheirAxis) {
-    MachineConfig machine = small_machine();
+    MachineSetup machine = small_machine();
     for (const char* name : {"Y1", "Y2"}) {
         machine.axes[1].motors.push_back({.name = name,
                                           .device = machine.axes[1].device,

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 struct Approach : testing::Test {
-    MachineConfig machine = load_machine_file("deploy/examples/three-axis.textproto").value();  // Z homes first, upward
+    MachineSetup machine = load_machine_file("deploy/examples/three-axis.textproto").value();  // Z homes first, upward
 
     std::vector<ApproachMove> to_work(const std::vector<double>& at_mm, const std::string& lift = "") const {
         return approach(machine, lifts_of(machine, lift).value(), at_mm, {60, 40, 2}, 10);

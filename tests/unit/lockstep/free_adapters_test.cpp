@@ -26,7 +26,7 @@ protected:
         return "serial:" + link.string();
     }
     std::vector<std::string> found(const std::string& link = "") const {
-        MachineConfig machine;
+        MachineSetup machine;
         if (!link.empty()) { machine.board_links.push_back({.name = "pico1", .link = read_link_name(link).value()}); }
         return free_adapters(machine, directory.path());
     }

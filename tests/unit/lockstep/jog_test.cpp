@@ -3,14 +3,15 @@
 
 #include "clients/lockstep/jog/jog_keys.hpp"
 #include "clients/lockstep/jog/jog_words.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 namespace {
 
 using namespace std::chrono_literals;
 
-MachineConfig machine_to_jog() {
-    MachineConfig machine{.name = "mill"};
+MachineSetup machine_to_jog() {
+    MachineSetup machine{{.name = "mill"}};
     for (const char* name : {"X", "Y", "Z", "A"}) {
         machine.axes.push_back({.name = name,
                                 .steps_per_mm = 100,
@@ -45,7 +46,7 @@ TEST(JogWords, ThatMakeNoSenseAreRefusedWithTheReason) {
 
 class TypedKeys : public testing::Test {
 protected:
-    MachineConfig machine = machine_to_jog();
+    MachineSetup machine = machine_to_jog();
     JogKeys keys{machine};
 };
 
@@ -110,7 +111,7 @@ TEST_F(TypedKeys, OfNoMeaningDoNothing) {
 }
 
 TEST(JogKeys, WithADistanceEachPressIsOneStepAndWhatComesDuringAStepIsOneMore) {
-    const MachineConfig machine = machine_to_jog();
+    const MachineSetup machine = machine_to_jog();
     JogKeys keys(machine, 0.1);
     EXPECT_FALSE(keys.take_step());
     keys.take("\x1b[C", 1s);

@@ -11,8 +11,8 @@ namespace {
 
 using testing::HasSubstr;
 
-MachineConfig mill() {
-    MachineConfig machine{.name = "mill"};
+MachineSetup mill() {
+    MachineSetup machine{{.name = "mill"}};
     for (const char* name : {"X", "Y", "Z", "X2"}) {
         AxisConfig axis;
         axis.name = name;

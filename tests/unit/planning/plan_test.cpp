@@ -18,7 +18,7 @@ using test::example;
 using test::program_of;
 
 TEST(Plan, ALineOfItsLengthInItsTime) {
-    const MachineConfig machine = example("two-axis");
+    const MachineSetup machine = example("two-axis");
     const auto plan = plan_program(machine, program_of(machine, "G1 X35 Y45 F3000\n"));  // from X5 Y5: 50 mm, 50 mm/s
     ASSERT_TRUE(plan.has_value());
     EXPECT_EQ(plan->moves, 1);
@@ -31,7 +31,7 @@ TEST(Plan, ALineOfItsLengthInItsTime) {
 
 /// A homed motor rests on the whole step that is nearest to its park, and the axes are where the motors place them.
 TEST(Plan, BeginsWhereTheMotorsRestAfterHoming) {
-    MachineConfig machine = example("core-xy");
+    MachineSetup machine = example("core-xy");
     machine.kinematics = {.matrix = {{.motor = "B", .of = {{.axis = "Y", .factor = -1.25}}}},
                           .skews = {{.x = "X", .y = "Y", .mm_per_m = 4}}};
     for (AxisConfig& axis : machine.axes) { axis.homing.park_mm = 5; }
@@ -42,7 +42,7 @@ TEST(Plan, BeginsWhereTheMotorsRestAfterHoming) {
 }
 
 TEST(Plan, WithinTheLimitsOfEachAxisAndAsFarAsItGoes) {
-    const MachineConfig machine = example("three-axis");
+    const MachineSetup machine = example("three-axis");
     const auto program = load_gcode_file("deploy/examples/plate.gcode", machine, parked_mm(machine));
     const auto plan = plan_program(machine, *program);
     ASSERT_TRUE(plan.has_value());
@@ -57,7 +57,7 @@ TEST(Plan, WithinTheLimitsOfEachAxisAndAsFarAsItGoes) {
 }
 
 TEST(Plan, NoAxisMayStandOutsideItsTravel) {
-    const MachineConfig machine = example("two-axis");
+    const MachineSetup machine = example("two-axis");
     const Program program = program_of(machine, "G1 X35 F3000\n");
     AxisCounts start;
     for (const AxisConfig& axis : machine.axes) { (void)start.push_back(to_steps(axis, axis.homing.park_mm)); }
@@ -101,7 +101,7 @@ std::string pieces_of_gcode(std::mt19937_64& random) {
 /// The moves are from hundredths of a millimetre to centimetres long. The figures of the plan agree with the motion and
 /// are within the limits. The figures of the planned path are the same within a hundredth of the start velocity.
 TEST(Plan, HasThePeaksOfTheMotionItself) {
-    const MachineConfig machine = example("three-axis");
+    const MachineSetup machine = example("three-axis");
     const double per_s = machine.ticks_per_second();
     const Ticks sample{std::llround(per_s * 2e-4)};
     std::mt19937_64 random(16);
@@ -132,7 +132,7 @@ TEST(Plan, HasThePeaksOfTheMotionItself) {
 }
 
 TEST(Plan, StepsBothWaysAndPausesBetweenLegs) {
-    const MachineConfig machine = example("two-axis");
+    const MachineSetup machine = example("two-axis");
     const auto plan = plan_program(machine, program_of(machine, "G0 X15\nM0\nG0 X5\n"));
     ASSERT_TRUE(plan.has_value());
     EXPECT_EQ(plan->axes[0].steps, 2 * 10 * 80);
@@ -141,7 +141,7 @@ TEST(Plan, StepsBothWaysAndPausesBetweenLegs) {
 }
 
 TEST(Plan, NothingToMoveIsAPlanToo) {
-    const MachineConfig machine = example("two-axis");
+    const MachineSetup machine = example("two-axis");
     const auto plan = plan_program(machine, program_of(machine, "G21\n"));
     ASSERT_TRUE(plan.has_value());
     EXPECT_EQ(plan->duration, Ticks{});
@@ -152,7 +152,7 @@ TEST(Plan, NothingToMoveIsAPlanToo) {
 
 /// Half a circle, and a pause: the path is round, and the speed is 0 at each rest.
 TEST(Plan, DrawsArcsAndRests) {
-    const MachineConfig machine = example("two-axis");
+    const MachineSetup machine = example("two-axis");
     PlanDrawing drawing(machine);
     const auto plan = plan_program(machine, program_of(machine, "G1 X60 Y50 F3000\nM0\nG3 X40 Y50 I-10 J0\nG1 X5 Y5\n"),
                                    [&drawing](const PlannedFrame& frame) { drawing.take(frame); });
@@ -176,7 +176,7 @@ TEST(Plan, DrawsArcsAndRests) {
 
 /// Each probing move is the end of a program that the coordinator gets.
 TEST(Plan, RefusesAProbingMoveThatTheCoordinatorRefuses) {
-    const MachineConfig machine = example("probe");
+    const MachineSetup machine = example("probe");
     const std::string down = "G91 G38.2 Z-1 F60\n";
     EXPECT_TRUE(plan_program(machine, program_of(machine, down + "G38.2 Z-1 F60\nG0 Z2\n")).has_value());
     const auto plan = plan_program(machine, program_of(machine, down + "G38.2 Z-1 F6000\nG0 Z2\n"));

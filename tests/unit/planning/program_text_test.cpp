@@ -28,7 +28,7 @@ protected:
 
     TemporaryDirectory directory_;
     std::filesystem::path file_ = directory_.path() / "program.gcode";
-    MachineConfig machine_ = example("three-axis");
+    MachineSetup machine_ = example("three-axis");
 };
 
 void expect_same(const ProgramPlan& streamed, const ProgramPlan& whole) {

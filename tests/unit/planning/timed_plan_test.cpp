@@ -78,7 +78,7 @@ private:
     double y_ = 50;
 };
 
-std::expected<ProgramPlan, PlanError> plan_of(const MachineConfig& machine, const Program& program,
+std::expected<ProgramPlan, PlanError> plan_of(const MachineSetup& machine, const Program& program,
                                               const Overrides& overrides, const OnPlannedFrame& each_frame) {
     return plan_blocks(machine, program.head(), std::make_shared<WholeProgram>(borrowed(program)),
                        {.start = start_counts(machine, program.head()),
@@ -87,7 +87,7 @@ std::expected<ProgramPlan, PlanError> plan_of(const MachineConfig& machine, cons
                         .progress = {}});
 }
 
-void expect_agreement(const MachineConfig& machine, const ProgramPlan& timed, const ProgramPlan& made) {
+void expect_agreement(const MachineSetup& machine, const ProgramPlan& timed, const ProgramPlan& made) {
     EXPECT_EQ(timed.moves, made.moves);
     EXPECT_EQ(timed.pauses, made.pauses);
     EXPECT_EQ(timed.length_mm, made.length_mm);
@@ -109,7 +109,7 @@ void expect_agreement(const MachineConfig& machine, const ProgramPlan& timed, co
 
 TEST(TimedPlan, HasTheFiguresOfTheFrames) {
     for (const char* name : {"three-axis", "six-axis"}) {
-        const MachineConfig machine = example(name);
+        const MachineSetup machine = example(name);
         for (std::uint64_t seed = 1; seed <= 25; ++seed) {
             SCOPED_TRACE(testing::Message() << name << " " << seed);
             const Program program = program_of(machine, RandomGcode(seed).text());
@@ -125,7 +125,7 @@ TEST(TimedPlan, HasTheFiguresOfTheFrames) {
 
 /// Each turn counts, and an arc leads farther than its ends.
 TEST(TimedPlan, CountsTheStepsAndTheRangeOfArcs) {
-    const MachineConfig machine = example("three-axis");
+    const MachineSetup machine = example("three-axis");
     const Program program = program_of(machine, "G0 X50 Y50 Z40\nG2 X50 Y50 Z38 I2 J0 P50 F3000\n");
     const std::int64_t expected = (50 - 5) * 80 + 50 * 8 * 80;  // from the park position; 8 mm in each turn
     const auto timed = plan_of(machine, program, {}, {});
@@ -142,7 +142,7 @@ TEST(TimedPlan, CountsTheStepsAndTheRangeOfArcs) {
 
 /// The frames of these 33 hours take half a minute, and the pieces of all turns several gigabytes.
 TEST(TimedPlan, DoesNotDependOnTheDuration) {
-    const MachineConfig machine = example("three-axis");
+    const MachineSetup machine = example("three-axis");
     const auto slow = plan_program(machine, program_of(machine, "G0 X90 Y50\nG2 X90 Y50 I-40 J0 P8 F1\n"));
     ASSERT_TRUE(slow.has_value());
     EXPECT_NEAR(slow->duration_s, 8 * 2 * std::numbers::pi * 40 * 60, 10);
@@ -168,7 +168,7 @@ std::string random_lines(std::uint64_t seed) {
 }
 
 TEST(TimedPlan, HasTheFiguresOfTheFramesOfLai) {
-    MachineConfig machine = example("three-axis");
+    MachineSetup machine = example("three-axis");
     machine.coordination = StepMethod::Lai;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         SCOPED_TRACE(seed);
@@ -193,7 +193,7 @@ TEST(TimedPlan, HasTheFiguresOfTheFramesOfLai) {
 /// The start velocity is less than the acceleration of a tick. The planner accelerates less, so that frames begin from
 /// rest.
 TEST(TimedPlan, AcceleratesWithinTheStartVelocityOfATick) {
-    MachineConfig machine = example("two-axis");
+    MachineSetup machine = example("two-axis");
     for (AxisConfig& axis : machine.axes) {
         axis.start_velocity_mm_s = 0.005;
         axis.max_velocity_mm_s = 300;
@@ -207,7 +207,7 @@ TEST(TimedPlan, AcceleratesWithinTheStartVelocityOfATick) {
 }
 
 TEST(TimedPlan, RefusesWhatFramesRefuse) {
-    const MachineConfig machine = example("two-axis");
+    const MachineSetup machine = example("two-axis");
     Program program{.name = "outside", .axes = {"X", "Y"}, .start_mm = parked_mm(machine)};
     program.blocks.push_back({1, ProgramMove{{20, 20}, 20, false}});
     program.blocks.push_back({2, ProgramMove{{20, 9999}, 20, false}});

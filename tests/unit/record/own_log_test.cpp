@@ -102,7 +102,7 @@ TEST_F(OwnLog, FilesOfOthersAreLeftAlone) {
 TEST_F(OwnLog, ReportsAnImpossibleDirectoryWithTheRemedy) {
     fs::create_directories(folder.parent_path());
     std::ofstream(folder.string()) << "a file is in the way";
-    MachineConfig machine{.name = "mill"};
+    MachineSetup machine{{.name = "mill"}};
     machine.axes.push_back({.name = "X"});
     machine.record.directory = folder / "below";
     const auto log = open_own_log(machine, "X");

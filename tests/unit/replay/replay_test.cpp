@@ -53,7 +53,7 @@ protected:
         EXPECT_GT(findings->steps, 1000);
     }
 
-    MachineConfig machine = test::example("two-axis");
+    MachineSetup machine = test::example("two-axis");
     std::vector<AxisClocks> clocks;
 };
 

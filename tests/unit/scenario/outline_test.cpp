@@ -72,7 +72,7 @@ protected:
         }
     }
 
-    MachineConfig machine_ = parsed(whole("")).machine;
+    MachineSetup machine_ = parsed(whole("")).machine;
     int fields_ = 0;
 };
 

@@ -43,7 +43,7 @@ protected:
     }
 
     static constexpr Tick kAct{1'000'000};
-    MachineConfig machine;
+    MachineSetup machine;
     RecordFacts facts;
 };
 

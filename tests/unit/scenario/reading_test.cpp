@@ -46,7 +46,7 @@ TEST(ScenarioReading, GivesTheMachineANetworkOfItsOwn) {
 }
 
 TEST(ScenarioReading, SharesMemoryOnlyWithoutLinks) {
-    MachineConfig machine;
+    MachineSetup machine;
     machine.network.one_host = true;
     EXPECT_TRUE(isolated(machine, Asked::PROCESS).network.one_host);
     EXPECT_FALSE(isolated(machine, Asked::NAMESPACE).network.one_host);

@@ -43,7 +43,7 @@ protected:
     }
 
     fs::path folder_;
-    MachineConfig machine_;
+    MachineSetup machine_;
 };
 
 TEST_F(Keys, LetEveryMemberIn) {

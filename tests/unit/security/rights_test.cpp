@@ -10,8 +10,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-MachineConfig mill() {
-    MachineConfig machine;
+MachineSetup mill() {
+    MachineSetup machine;
     machine.name = "mill";
     machine.network.domain = 7;
     machine.axes.resize(2);

@@ -13,8 +13,8 @@ namespace {
 
 using testing::HasSubstr;
 
-MachineConfig with_inputs() {
-    MachineConfig machine = two_axes();
+MachineSetup with_inputs() {
+    MachineSetup machine = two_axes();
     machine.inputs = {{.name = "stop", .motor = "Y", .channel = 3, .use = InputUse::EmergencyStop},
                       {.name = "door", .motor = "X", .channel = 4, .use = InputUse::Door},
                       {.name = "part", .motor = "X", .channel = 5, .use = InputUse::Program, .number = 2}};
@@ -56,7 +56,7 @@ TEST(MachineFault, NamesTheInputOfAnEmergencyStop) {
 }
 
 TEST(MachineFault, NamesTheInputOfATouchInMotion) {
-    MachineConfig machine = with_inputs();
+    MachineSetup machine = with_inputs();
     machine.inputs.push_back({.name = "tip", .motor = "X", .channel = 6, .use = InputUse::Probe, .number = 0});
     const auto fault = fault_of({.fault = FaultCode::TouchInMotion, .fault_motor = MotorIndex{0}}, machine);
     EXPECT_THAT(fault->cause(), HasSubstr(": input tip of motor X"));
@@ -64,7 +64,7 @@ TEST(MachineFault, NamesTheInputOfATouchInMotion) {
 }
 
 TEST(InputReport, NamesTheInputBecauseOfWhichAProbingMoveCouldNotBegin) {
-    MachineConfig machine = with_inputs();
+    MachineSetup machine = with_inputs();
     machine.inputs.push_back({.name = "tip", .motor = "X", .channel = 6, .use = InputUse::Probe, .number = 0});
     machine.inputs.push_back({.name = "ring", .motor = "Y", .channel = 6, .use = InputUse::Probe, .number = 0});
     proto::StatusReport status;

@@ -4,6 +4,7 @@
 
 #include "clients/session/measuring/measure_words.hpp"
 #include "clients/session/measuring/measuring_program.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 namespace {
@@ -11,8 +12,8 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-MachineConfig mill() {
-    MachineConfig machine{.name = "mill"};
+MachineSetup mill() {
+    MachineSetup machine{{.name = "mill"}};
     for (const char* name : {"X", "Y", "Z"}) {
         machine.axes.push_back({.name = name, .steps_per_mm = 100, .position_min_mm = 0, .position_max_mm = 200});
     }
@@ -42,7 +43,7 @@ std::string text_of_program(const MeasureOptions& options) {
 }
 
 std::string error_of(const MeasureOptions& options, const std::vector<double>& start = kTipAt,
-                     const MachineConfig& machine = mill()) {
+                     const MachineSetup& machine = mill()) {
     const auto program = measuring_program(machine, start, options);
     EXPECT_FALSE(program);
     return program ? "" : text_of(program.error());
@@ -92,7 +93,7 @@ TEST(MeasuringPrograms, WithAWrongValueAreRefusedWithItsRange) {
 }
 
 TEST(MeasuringPrograms, NeedTheirAxesAndTheirProbe) {
-    MachineConfig machine = mill();
+    MachineSetup machine = mill();
     machine.axes[1].name = "V";
     EXPECT_THAT(error_of(options_of(MeasureKind::Bore), kTipAt, machine), HasSubstr("has no axis 'Y'"));
     machine = mill();

@@ -76,8 +76,8 @@ TEST(Move, IsRefusedWithTheValueAndTheLimit) {
     EXPECT_THAT(error_of({.targets = {"X=5"}, .feed_mm_min = -600}), HasSubstr("--feed"));
 }
 
-MachineConfig two_axes_with_probe() {
-    MachineConfig machine = two_axes();
+MachineSetup two_axes_with_probe() {
+    MachineSetup machine = two_axes();
     machine.inputs = {{.name = "plate", .motor = "X", .use = InputUse::Probe, .number = 3}};
     return machine;
 }
@@ -92,7 +92,7 @@ TEST(ProbeProgram, EndsWithAMoveThatTouches) {
 }
 
 TEST(ProbeProgram, NeedsAFeedAProbeAndAPlaceFurtherOn) {
-    const MachineConfig machine = two_axes_with_probe();
+    const MachineSetup machine = two_axes_with_probe();
     EXPECT_EQ(probe_program(machine, {5, 5}, {.move = {.targets = {"X=20"}}}).error(),
               "a probing move needs a feed; write --feed, in mm/min");
     EXPECT_EQ(probe_program(machine, {5, 5}, {.move = {.targets = {"X=5"}, .feed_mm_min = 60}}).error(),

@@ -12,8 +12,8 @@ namespace {
 
 using testing::HasSubstr;
 
-MachineConfig engraver_with_outputs() {
-    MachineConfig machine = two_axes();
+MachineSetup engraver_with_outputs() {
+    MachineSetup machine = two_axes();
     machine.outputs = {{.name = "laser", .motor = "X", .use = OutputUse::Spindle, .pwm = PwmConfig{5000, 1000, true}},
                        {.name = "air", .motor = "Y", .channel = 0, .use = OutputUse::Flood},
                        {.name = "marker", .motor = "Y", .channel = 3, .number = 0}};
@@ -73,7 +73,7 @@ TEST(OutputReport, LeavesOutWhatWasNotReceived) {
 
 /// The status of a camera that the program asks for 100 pulses.
 proto::StatusReport camera_status(const MachineState& machine, const std::optional<AxisState>& device) {
-    MachineConfig config = two_axes();
+    MachineSetup config = two_axes();
     config.outputs = {{.name = "camera", .motor = "X", .use = OutputUse::Places, .pulse_us = 10}};
     proto::StatusReport status;
     add_outputs(

@@ -28,7 +28,7 @@ proto::StatusReport running() {
                           .phase = AxisPhase::Cruise,
                           .position = Position::steps(-400),
                           .velocity = {static_cast<std::int64_t>(-0x1p64 * 0.0008)}};
-    const MachineConfig machine = two_axes();
+    const MachineSetup machine = two_axes();
     *status.add_axes() = axis_status({"X", machine.axes[0].steps_per_mm, machine.ticks_per_second()}, &state,
                                      state.velocity.steps_per_tick());
     status.mutable_axes(0)->set_present(true);
@@ -103,8 +103,8 @@ TEST(StatusText, ShowsAFaultWithItsCauseAndRemedyOnce) {
     EXPECT_EQ(text.find("limit-hit"), text.rfind("limit-hit"));
 }
 
-MachineConfig gantry() {
-    MachineConfig machine = two_axes();
+MachineSetup gantry() {
+    MachineSetup machine = two_axes();
     machine.axes[1].motors = {{.name = "Y1", .steps_per_mm = 80}, {.name = "Y2", .steps_per_mm = 80}};
     return machine;
 }
@@ -136,7 +136,7 @@ proto::StatusReport running_with_board() {
 
 TEST(StatusText, ShowsABoardWithoutPositionAndHoming) {
     proto::StatusReport status = running_with_board();
-    MachineConfig machine = two_axes();
+    MachineSetup machine = two_axes();
     machine.boards = {{.name = "IO"}};
     *status.mutable_fault() = motor_fault(FaultCode::DeviceLost, Kinematics(machine), MotorIndex{2});
     const std::string text = status_text(status);

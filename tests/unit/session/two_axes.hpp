@@ -1,7 +1,7 @@
 // A machine for examples: X from 0 to 200 mm, Y from -50 to 50 mm, 80 steps per mm.
 #pragma once
 
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
@@ -16,8 +16,8 @@ inline AxisConfig example_axis(const char* name, double min_mm, double max_mm) {
             .position_max_mm = max_mm};
 }
 
-inline MachineConfig two_axes() {
-    return {.name = "mill", .axes = {example_axis("X", 0, 200), example_axis("Y", -50, 50)}};
+inline MachineSetup two_axes() {
+    return {{.name = "mill", .axes = {example_axis("X", 0, 200), example_axis("Y", -50, 50)}}};
 }
 
 }  // namespace lockstep

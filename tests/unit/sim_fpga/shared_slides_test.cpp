@@ -11,6 +11,8 @@
 namespace lockstep {
 namespace {
 
+constexpr std::uint32_t kDomain = 0;
+
 /// Its name is that of this process alone, as tests run at the same time.
 MachineConfig machine() {
     MachineConfig machine{.name = "slides-" + std::to_string(::getpid())};
@@ -22,15 +24,15 @@ MachineConfig machine() {
 }
 
 bool exists(const MachineConfig& machine) {
-    const int file = ::shm_open(SharedSlides::name_of(machine).c_str(), O_RDONLY | O_CLOEXEC, 0);
+    const int file = ::shm_open(SharedSlides::name_of(machine.name, kDomain).c_str(), O_RDONLY | O_CLOEXEC, 0);
     if (file >= 0) { ::close(file); }
     return file >= 0;
 }
 
 TEST(SharedSlides, OneProcessSeesWhatAnotherPublishes) {
     const MachineConfig config = machine();
-    auto first = SharedSlides::open(config);
-    auto second = SharedSlides::open(config);
+    auto first = SharedSlides::open(config, kDomain);
+    auto second = SharedSlides::open(config, kDomain);
     ASSERT_TRUE(first && second);
     const std::int64_t start = second->places()[1].count();
     first->publish(MotorIndex{1}, 250);
@@ -39,8 +41,8 @@ TEST(SharedSlides, OneProcessSeesWhatAnotherPublishes) {
 
 TEST(SharedSlides, TheLastOneThatClosesTheMemoryRemovesIt) {
     const MachineConfig config = machine();
-    std::optional first = SharedSlides::open(config);
-    std::optional second = SharedSlides::open(config);
+    std::optional first = SharedSlides::open(config, kDomain);
+    std::optional second = SharedSlides::open(config, kDomain);
     ASSERT_TRUE(*first && *second);
     first.reset();
     EXPECT_TRUE(exists(config));
@@ -50,9 +52,9 @@ TEST(SharedSlides, TheLastOneThatClosesTheMemoryRemovesIt) {
 
 TEST(SharedSlides, AMachineThatIsUpAgainStartsWithSlidesAtTheirStarts) {
     const MachineConfig config = machine();
-    const std::int64_t start = SharedSlides::open(config)->places()[0].count();
-    SharedSlides::open(config)->publish(MotorIndex{0}, 400);
-    EXPECT_EQ(SharedSlides::open(config)->places()[0].count(), start);
+    const std::int64_t start = SharedSlides::open(config, kDomain)->places()[0].count();
+    SharedSlides::open(config, kDomain)->publish(MotorIndex{0}, 400);
+    EXPECT_EQ(SharedSlides::open(config, kDomain)->places()[0].count(), start);
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ namespace {
 
 using testing::HasSubstr;
 
-MachineConfig on_three_hosts() {
-    MachineConfig machine = two_axes();
+MachineSetup on_three_hosts() {
+    MachineSetup machine = two_axes();
     machine.coordinator_host = "board-a";
     machine.axes[0].host = "board-b";
     machine.axes[1].host = "board-c";

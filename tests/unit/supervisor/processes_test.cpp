@@ -115,7 +115,7 @@ TEST(ServiceLines, WithThePageHaveItBesideTheCoordinator) {
     EXPECT_THAT(names_of(asked), ElementsAre("coordinator", "axis-X", "axis-Y", "web"));
     EXPECT_EQ(asked.back().words[0], "/opt/bin/lockstep-web");
     EXPECT_THAT(asked.back().words, Contains(state.page_file().string())) << "a log has no tokens";
-    MachineConfig machine = two_axes();
+    MachineSetup machine = two_axes();
     machine.web = WebConfig{};
     EXPECT_EQ(names_of(service_lines(machine, all(), {}, "/opt/bin", state)), names_of(asked));
     EXPECT_THAT(names_of(service_lines(machine, {.axes = {MotorIndex{1}}}, {.web = true}, "/opt/bin", state)),
@@ -130,7 +130,7 @@ TEST(ServiceLines, WithDevicesOfTheirOwnHaveTheDevicesFirst) {
 }
 
 TEST(ServiceLines, HaveTheBoardOfPlacedMotorsOnceAndFirst) {
-    MachineConfig machine = two_axes();
+    MachineSetup machine = two_axes();
     machine.board_links = {{.name = "pico1", .link = {LinkName::Kind::Tcp, "127.0.0.1", 7001}}};
     for (unsigned n : {0U, 1U}) { machine.axes[n].device = {DeviceName::Kind::Linked, "pico1", n}; }
     const StateDirectory state("mill");

@@ -10,7 +10,7 @@ namespace lockstep::verification {
 namespace {
 
 TEST(ClockCheck, AllowsTimesOfItsOwnClockToTheMotorWhoseDeviceHasOne) {
-    MachineConfig machine = test::example("gantry");
+    MachineSetup machine = test::example("gantry");
     machine.axes.at(1).motors.at(0).device = read_device_name("uio:/dev/uio0").value();
     ClockCheck check;
     check.set_machine(machine);

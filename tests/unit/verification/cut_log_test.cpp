@@ -26,7 +26,7 @@ protected:
 
     static void SetUpTestSuite() {
         original = fs::path(testing::TempDir()) / ("lockstep_cut_" + std::to_string(getpid()) + ".lcm");
-        const MachineConfig machine = test::example("two-axis");
+        const MachineSetup machine = test::example("two-axis");
         {
             test::RecordedMachine recorded(machine, original);
             recorded.home();

@@ -37,7 +37,7 @@ protected:
         recorded.advance_ms(2000);
     }
     void record(std::size_t killed, std::int64_t into_ms, std::int64_t dead_ms) {
-        const MachineConfig machine = test::example("two-axis");
+        const MachineSetup machine = test::example("two-axis");
         record({.machine = machine, .config_hash = config_hash(machine)}, killed, into_ms, dead_ms);
     }
     Findings verified(const std::filesystem::path& log) const {
@@ -94,7 +94,7 @@ TEST_P(KilledInMotion, ACoordinatorWithoutSuccessor) {
 }
 
 TEST_P(KilledInMotion, AnAxisOfBoardsWithClocksOfTheirOwn) {
-    MachineConfig machine = test::example("two-axis");
+    MachineSetup machine = test::example("two-axis");
     machine.timing.time_source = TimeSource::Network;
     record({.machine = machine,
             .config_hash = config_hash(machine),
@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Milliseconds, KilledInMotion, testing::Values(450, 555,
 
 TEST_F(EndedLog, ACoordinatorOfAMachineThatIsHeld) {
     {
-        const MachineConfig machine = test::example("two-axis");
+        const MachineSetup machine = test::example("two-axis");
         RecordedMachine recorded(machine, path());
         recorded.home();
         recorded.begin(test::program_of(machine, kLine));

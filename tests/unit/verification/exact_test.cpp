@@ -24,7 +24,7 @@ protected:
         EXPECT_EQ(findings->jobs, jobs);
     }
 
-    MachineConfig machine = test::example("two-axis");
+    MachineSetup machine = test::example("two-axis");
 };
 
 TEST_F(Exact, AProgramRunToItsEnd) {
@@ -38,7 +38,7 @@ TEST_F(Exact, AProgramRunToItsEnd) {
 }
 
 /// Two boards: each device's run verifies, by its own clock.
-VirtualOptions own_clocks(MachineConfig machine) {
+VirtualOptions own_clocks(MachineSetup machine) {
     machine.timing.time_source = TimeSource::Network;
     const std::uint64_t hash = config_hash(machine);
     VirtualOptions options{.machine = std::move(machine), .config_hash = hash, .start = Tick{20'000'000}};

@@ -21,7 +21,7 @@ protected:
         original = fs::path(testing::TempDir()) / name;
         test::RecordedMachine recorded(test::example("two-axis"), original);
         recorded.home();
-        const MachineConfig& machine = recorded.vm().machine();
+        const MachineSetup& machine = recorded.vm().machine();
         for (const char* line : {"G90 F3000\nG1 X70\nX5 Y5\n\n", "G21 G90 F3000\nG1 X20 Y30\n"}) {
             recorded.begin(test::program_of(machine, line));
             ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));

@@ -37,7 +37,7 @@ protected:
         EXPECT_LT(original.largest_distance_mm(), 0.02);
         EXPECT_EQ(original.DebugString(), report_of(with_late(channels)).DebugString());
     }
-    void record(const MachineConfig& machine) const {
+    void record(const MachineSetup& machine) const {
         RecordedMachine recorded(machine, path());
         recorded.home();
         recorded.begin(test::program_of(machine, "G21 G90 F6000\nG1 X60 Y8\nX62 Y50\nG4 P0.3\nX10 Y40\nX5 Y5\n"));
@@ -57,7 +57,7 @@ TEST_F(LateMessages, OnlyTheStepsOfAnAxis) {
 }
 
 TEST_F(LateMessages, OfAProcessThatStallsInMotionAndContinues) {
-    const MachineConfig machine = test::example("two-axis");
+    const MachineSetup machine = test::example("two-axis");
     {
         RecordedMachine recorded(machine, path());
         recorded.home();

@@ -86,7 +86,7 @@ TEST(ProgramRecord, FitsASmallQueueAsItArrivesInChunks) {
     constexpr std::size_t kQueue = 100'000;  // the program is ten times as long
     constexpr std::uint32_t kChunks = 32;
     std::atomic<std::uint32_t> written = 0;
-    const MachineConfig machine = test::example("two-axis");
+    const MachineSetup machine = test::example("two-axis");
     {
         QueuedSink sink(
             std::make_unique<CountedLog>(written), [](RecordSink&, const RecordLoss&) {}, "", kQueue);

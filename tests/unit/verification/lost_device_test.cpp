@@ -14,7 +14,7 @@ using testing::Contains;
 using testing::HasSubstr;
 
 Findings verified_with_a_device_lost(std::int64_t into_ms) {
-    const MachineConfig machine = test::example("two-axis");
+    const MachineSetup machine = test::example("two-axis");
     const auto log = test::test_directory() / "run.lcm";
     {
         RecordedMachine recorded(machine, log);

@@ -19,7 +19,7 @@ using test::RecordedMachine;
 class PartialLog : public testing::Test {
 protected:
     static void SetUpTestSuite() {
-        const MachineConfig machine = test::example("three-axis");
+        const MachineSetup machine = test::example("three-axis");
         const std::string name = "lockstep_partial_log." + std::to_string(getpid()) + ".lcm";  // tests run side by side
         whole_ = std::filesystem::path(testing::TempDir()) / name;
         RecordedMachine recorded(machine, whole_);

@@ -31,7 +31,7 @@ protected:
     /// Pauses twice. In the first pause axes are jogged and return, held once on the way; in the second they are jogged
     /// back by hand.
     static void record(int times) {
-        const MachineConfig machine = test::example("two-axis");
+        const MachineSetup machine = test::example("two-axis");
         test::RecordedMachine recorded(machine, path());
         Jogger jogger(recorded.vm());
         recorded.home();

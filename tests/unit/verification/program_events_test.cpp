@@ -42,7 +42,7 @@ protected:
     }
     /// Holds the first program and resumes it, runs one with pauses and many events, and stops one with the spindle on.
     void record() {
-        const MachineConfig machine = test::example("two-axis");
+        const MachineSetup machine = test::example("two-axis");
         const std::vector<double> start = parked_mm(machine);
         test::RecordedMachine recorded(machine, path());
         recorded.home();
@@ -229,7 +229,7 @@ TEST_F(EventsInARecord, OfALogThatBeginsLateAreComparedFromItsFirstJob) {
 class EventsOfTwo : public EventsInARecord {
 protected:
     void record_takeover(std::int64_t crash_ms) {
-        const MachineConfig machine = test::example("two-axis");
+        const MachineSetup machine = test::example("two-axis");
         const std::vector<double> start = parked_mm(machine);
         test::RecordedMachine recorded({.machine = machine,
                                         .config_hash = config_hash(machine),

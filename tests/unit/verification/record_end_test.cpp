@@ -31,7 +31,7 @@ protected:
         original = fs::path(testing::TempDir()) / name;
         test::RecordedMachine recorded(test::example("two-axis"), original);
         recorded.home();
-        const MachineConfig& machine = recorded.vm().machine();
+        const MachineSetup& machine = recorded.vm().machine();
         recorded.begin(test::program_of(machine, "G90 F3000\nG1 X70\nX5 Y5\n\n"));
         ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
         recorded.advance_ms(1500);

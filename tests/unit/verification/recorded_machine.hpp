@@ -29,7 +29,7 @@ inline std::filesystem::path test_directory() {
     return path;
 }
 
-inline MachineConfig example(const std::string& name) {
+inline MachineSetup example(const std::string& name) {
     return load_machine_file("deploy/examples/" + name + ".textproto").value();
 }
 
@@ -40,7 +40,7 @@ inline Program program_of(const MachineConfig& machine, std::string_view gcode) 
 
 class RecordedMachine {
 public:
-    RecordedMachine(const MachineConfig& machine, const std::filesystem::path& log)
+    RecordedMachine(const MachineSetup& machine, const std::filesystem::path& log)
         : RecordedMachine(VirtualOptions{.machine = machine, .config_hash = config_hash(machine)}, log) {}
     RecordedMachine(const VirtualOptions& options, const std::filesystem::path& log)
         : sink_(LogWriter::open(log).value()), vm_(options), recorder_(vm_, sink_) {}

@@ -8,7 +8,7 @@ namespace lockstep::analysis {
 namespace {
 
 TEST(StoppedLog, HasTheEmergencyStopAtEachAxissLastStep) {
-    const MachineConfig machine = test::example("two-axis");
+    const MachineSetup machine = test::example("two-axis");
     const auto path = test::test_directory() / "run.lcm";
     {
         test::RecordedMachine recorded(machine, path);

@@ -30,12 +30,12 @@ protected:
         return phase == MachinePhase::Idle || phase == MachinePhase::Fault;
     }
 
-    void expect_exact(const MachineConfig& machine);
+    void expect_exact(const MachineSetup& machine);
 
     std::mt19937_64 random{GetParam()};
 };
 
-void Storm::expect_exact(const MachineConfig& machine) {
+void Storm::expect_exact(const MachineSetup& machine) {
     const auto log = test::test_directory() / ("storm" + std::to_string(GetParam()) + ".lcm");
     const NetworkBehaviour rough{.delay_min = Ticks{50},
                                  .delay_max = Ticks{static_cast<std::int64_t>(random() % 60'000)} + Ticks{50},
@@ -59,7 +59,7 @@ void Storm::expect_exact(const MachineConfig& machine) {
 TEST_P(Storm, StillExact) { expect_exact(test::example("two-axis")); }
 
 TEST_P(Storm, StillExactWithLaisPlanner) {
-    MachineConfig machine = test::example("two-axis");
+    MachineSetup machine = test::example("two-axis");
     machine.coordination = StepMethod::Lai;
     ASSERT_TRUE(suits_lai_path(machine).has_value());
     expect_exact(machine);

@@ -44,7 +44,7 @@ protected:
     }
     /// The program's parts come late. The machine rests on the path again and again, with other overrides each time.
     void run(bool is_ended = true) {
-        const MachineConfig machine = test::example("two-axis");
+        const MachineSetup machine = test::example("two-axis");
         start = parked_mm(machine);
         test::RecordedMachine recorded(machine, path());
         recorded.home();
@@ -83,7 +83,7 @@ protected:
     /// Parts come at any time, mostly early enough. Overrides are turned meanwhile.
     void run_with_turns(std::uint64_t seed) {
         std::mt19937_64 random(seed);
-        const MachineConfig machine = test::example("two-axis");
+        const MachineSetup machine = test::example("two-axis");
         start = parked_mm(machine);
         test::RecordedMachine recorded(machine, path());
         recorded.home();

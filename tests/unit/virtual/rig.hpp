@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/faults.hpp"
+#include "services/setup/machine_setup.hpp"
 #include "services/virtual/virtual_machine.hpp"
 #include "tests/unit/axis/pair_machine.hpp"
 
@@ -18,8 +19,8 @@ inline constexpr std::size_t kY = 1;
 inline constexpr std::size_t kCoordinator = 2;
 
 /// Two axes, X and Y, 100 mm of travel, 100 steps/mm, with slides that start near the switches.
-inline MachineConfig small_machine() {
-    MachineConfig machine = pair_machine();
+inline MachineSetup small_machine() {
+    MachineSetup machine{pair_machine()};
     machine.name = "rig";
     for (AxisConfig& axis : machine.axes) {
         axis.position_min_mm = 0;

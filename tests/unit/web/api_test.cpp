@@ -42,7 +42,7 @@ protected:
         return Json::parse(std::get<std::string>(response.body))["code"];
     }
 
-    MachineConfig machine = two_axes();
+    MachineSetup machine = two_axes();
     NotingPort port;
     EventLog log{"run"};
     ProgramDesk desk;

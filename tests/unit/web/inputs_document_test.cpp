@@ -12,8 +12,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-MachineConfig with_inputs() {
-    MachineConfig machine = two_axes();
+MachineSetup with_inputs() {
+    MachineSetup machine = two_axes();
     machine.inputs = {{.name = "stop", .motor = "Y", .channel = 3, .use = InputUse::EmergencyStop},
                       {.name = "part", .motor = "X", .channel = 5, .use = InputUse::Program, .number = 2}};
     return machine;
@@ -39,7 +39,7 @@ TEST(InputsDocument, SaysWhichAreClosedAndLeavesOutThoseOfMotorsThatWereNotRecei
 }
 
 TEST(InputsDocument, FindsTheInputsOfAMotorThatIsNotTheOnlyOneOfAnAxis) {
-    MachineConfig machine = two_axes();
+    MachineSetup machine = two_axes();
     machine.axes[1].motors = {{.name = "Y1", .steps_per_mm = 80}, {.name = "Y2", .steps_per_mm = 80}};
     machine.inputs = {{.name = "door", .motor = "Y2", .channel = 6, .use = InputUse::Door}};
     Snapshot snapshot = snapshot_at_rest();

@@ -102,7 +102,7 @@ TEST_F(Mdi, TheOldestLinesAreForgotten) {
 }
 
 TEST(MdiProbe, TheNextLineKnowsWhereTheProbeTouchedAndWhereTheAxesRest) {
-    MachineConfig machine = two_axes();
+    MachineSetup machine = two_axes();
     machine.inputs = {{.name = "plate", .motor = machine.axes[0].name, .use = InputUse::Probe, .number = 0}};
     Snapshot snapshot = snapshot_at_rest();
     MdiSession mdi(machine);
@@ -127,7 +127,7 @@ TEST(MdiProbe, TheNextLineKnowsWhereTheProbeTouchedAndWhereTheAxesRest) {
 }
 
 TEST(MdiProbe, AResultOfAnotherMachineIsNotTaken) {
-    MachineConfig machine = two_axes();
+    MachineSetup machine = two_axes();
     machine.inputs = {{.name = "plate", .motor = machine.axes[0].name, .use = InputUse::Probe, .number = 0}};
     Snapshot snapshot = snapshot_at_rest();
     MdiSession mdi(machine);

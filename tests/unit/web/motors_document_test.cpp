@@ -14,8 +14,8 @@ namespace {
 using namespace std::chrono_literals;
 using Json = nlohmann::json;
 
-MachineConfig gantry() {
-    MachineConfig machine = two_axes();
+MachineSetup gantry() {
+    MachineSetup machine = two_axes();
     machine.axes[1].motors = {{.name = "Y1", .steps_per_mm = 80}, {.name = "Y2", .steps_per_mm = 80}};
     return machine;
 }
@@ -43,7 +43,7 @@ TEST(MotorsDocument, NamesTheMotorsAndTheAxesThatTheyMove) {
     ASSERT_EQ(motors.size(), 2u);
     EXPECT_EQ(motors[1]["name"], "Y2");
     EXPECT_EQ(motors[1]["axes"], Json::array({"Y"}));
-    MachineConfig belts = two_axes();
+    MachineSetup belts = two_axes();
     belts.axes[0].motors = {{.name = "A", .steps_per_mm = 80}};
     belts.axes[1].motors = {{.name = "B", .steps_per_mm = 80}};
     belts.kinematics.core_xy = CoreXy{"X", "Y"};
@@ -116,8 +116,8 @@ TEST(MotorsDocument, MeasuresTheSkewOfStepsAgainstTheOtherMotors) {
     EXPECT_TRUE(of_gantry(snapshot)["axes"]["Y"]["health"].is_null());
 }
 
-MachineConfig with_board() {
-    MachineConfig machine = two_axes();
+MachineSetup with_board() {
+    MachineSetup machine = two_axes();
     machine.boards = {{.name = "IO", .host = "shed", .device = {}}};
     machine.outputs = {{.name = "air", .motor = "IO", .at_board = true, .channel = 2, .use = OutputUse::Flood}};
     return machine;

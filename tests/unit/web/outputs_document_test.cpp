@@ -12,8 +12,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-MachineConfig with_outputs() {
-    MachineConfig machine = two_axes();
+MachineSetup with_outputs() {
+    MachineSetup machine = two_axes();
     machine.outputs = {{.name = "laser", .motor = "X", .use = OutputUse::Spindle, .pwm = PwmConfig{5000, 1000, true}},
                        {.name = "air", .motor = "Y", .channel = 2, .use = OutputUse::Flood}};
     return machine;
@@ -56,7 +56,7 @@ TEST(OutputsDocument, SaysThatAnOutputIsNotKnownAndIsEmptyWithoutACoordinator) {
 }
 
 TEST(OutputsDocument, CountsThePulsesThatAreLeft) {
-    MachineConfig machine = two_axes();
+    MachineSetup machine = two_axes();
     machine.outputs = {{.name = "camera", .motor = "X", .use = OutputUse::Places, .pulse_us = 10}};
     EXPECT_EQ(machine_document(machine, "1")["outputs"][0]["kind"], "pulses");
     Snapshot snapshot = snapshot_at_rest();

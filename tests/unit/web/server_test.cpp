@@ -79,7 +79,7 @@ protected:
         return std::exchange(port.asked, {});
     }
 
-    MachineConfig machine = two_axes();
+    MachineSetup machine = two_axes();
     NotingPort port;
     EventLog log{"run"};
     ProgramDesk desk;

@@ -18,7 +18,7 @@ protected:
         record();
         ASSERT_EQ(run_lockstep({"home"}).code, 0);
     }
-    void configure(MachineConfig& machine) override { machine.unassigned.spindle = WordRule::Ignore; }
+    void configure(MachineSetup& machine) override { machine.unassigned.spindle = WordRule::Ignore; }
     static Sender ready() {
         Sender sender = connected();
         EXPECT_TRUE(eventually([&] { return sender.status().starts_with("Idle"); }));

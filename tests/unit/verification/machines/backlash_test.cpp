@@ -17,8 +17,8 @@ constexpr std::string_view kTurns =
 
 class LooseRecords : public testing::Test {
 protected:
-    static MachineConfig loose() {
-        MachineConfig machine = test::example("two-axis");
+    static MachineSetup loose() {
+        MachineSetup machine = test::example("two-axis");
         for (AxisConfig& axis : machine.axes) { axis.backlash = BacklashConfig{.mm = 0.1, .speed_mm_s = {}}; }
         set_steps_of_axes(machine);
         return machine;
@@ -30,7 +30,7 @@ protected:
         return *findings;
     }
 
-    MachineConfig machine = loose();
+    MachineSetup machine = loose();
 };
 
 TEST_F(LooseRecords, ProgramsVerifyAndTheirHolds) {

@@ -8,8 +8,8 @@ namespace lockstep::verification {
 namespace {
 
 /// Both axes of the belts home by inputs, near their switches.
-MachineConfig belts_with_switches() {
-    MachineConfig machine = test::example("core-xy");
+MachineSetup belts_with_switches() {
+    MachineSetup machine = test::example("core-xy");
     for (std::size_t i = 0; i < 2; ++i) {
         AxisConfig& axis = machine.axes[i];
         const std::string input = axis.name + "_home";
@@ -26,7 +26,7 @@ MachineConfig belts_with_switches() {
 TEST(HomingByTouch, IsExactIfItsMovesAreAsPlanned) {
     const auto path = test::test_directory() / "homing.lcm";
     {
-        const MachineConfig machine = belts_with_switches();
+        const MachineSetup machine = belts_with_switches();
         test::RecordedMachine recorded(machine, path);
         recorded.home();
         recorded.begin(test::program_of(machine, "G1 X20 Y10 F3000\n"));

@@ -30,7 +30,7 @@ protected:
     }
     /// Holds and resumes a program, and stops the next one while its laser burns.
     static void record() {
-        const MachineConfig machine = test::example("laser");
+        const MachineSetup machine = test::example("laser");
         const std::vector<double> start = parked_mm(machine);
         test::RecordedMachine recorded(machine, path());
         recorded.home();
@@ -92,7 +92,7 @@ TEST_F(RecordedOutputs, AtAnotherTickOrWithAnotherValueOrSlopeAreFound) {
 class RecordedPulses : public RecordedOutputs {
 protected:
     static void record_pulses() {
-        MachineConfig machine = test::example("laser");
+        MachineSetup machine = test::example("laser");
         machine.outputs.push_back(
             {.name = "camera", .motor = "X", .channel = 3, .use = OutputUse::Places, .number = 3, .pulse_us = 20});
         const std::vector<double> at = parked_mm(machine);

@@ -14,7 +14,7 @@ protected:
 
     /// A touch of one of two inputs, and a move that misses.
     static void record() {
-        MachineConfig machine = test::example("two-axis");
+        MachineSetup machine = test::example("two-axis");
         machine.inputs = {
             {.name = "probe", .motor = "Y", .channel = 3, .use = InputUse::Probe, .number = 0, .max_overshoot_mm = 20},
             {.name = "ring", .motor = "X", .channel = 4, .use = InputUse::Probe, .number = 0, .max_overshoot_mm = 20}};
