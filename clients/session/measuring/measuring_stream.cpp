@@ -6,7 +6,7 @@ namespace lockstep {
 
 std::string title_of(MeasureKind kind) { return "probe " + std::string(name_of(kind)); }
 
-ProgramStream measuring_stream(const MachineConfig& machine, const std::vector<double>& start_mm, MeasureKind kind,
+ProgramStream measuring_stream(const MachineSetup& machine, const std::vector<double>& start_mm, MeasureKind kind,
                                const MeasuringProgram& program, std::uint64_t revision) {
     GcodeSetup setup = gcode_setup(machine, start_mm, title_of(kind));
     setup.find_subroutine = subroutines_of(machine);

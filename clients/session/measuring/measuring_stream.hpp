@@ -5,6 +5,7 @@
 
 #include "clients/session/measuring/measuring_program.hpp"
 #include "clients/session/program_stream.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep {
 
@@ -12,7 +13,7 @@ namespace lockstep {
 std::string title_of(MeasureKind kind);
 
 /// Machine coordinates: without the machine's offsets and tools. `revision`: of the machine's values now.
-ProgramStream measuring_stream(const MachineConfig& machine, const std::vector<double>& start_mm, MeasureKind kind,
+ProgramStream measuring_stream(const MachineSetup& machine, const std::vector<double>& start_mm, MeasureKind kind,
                                const MeasuringProgram& program, std::uint64_t revision);
 
 }  // namespace lockstep

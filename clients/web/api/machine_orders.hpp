@@ -10,7 +10,7 @@ namespace lockstep::web {
 class MachineOrders {
 public:
     /// All must outlive this object.
-    MachineOrders(const MachineConfig& machine, MachinePort& port, ProgramDesk& desk, MdiSession& mdi)
+    MachineOrders(const MachineSetup& machine, MachinePort& port, ProgramDesk& desk, MdiSession& mdi)
         : machine_(machine), port_(port), desk_(desk), mdi_(mdi) {}
 
     /// Calls `done` once, from any thread.
@@ -24,7 +24,7 @@ private:
     void measure(const MeasureOrder& order, const Done& done);
     void keep(const KeepOrder& order, const Done& done);
 
-    const MachineConfig& machine_;
+    const MachineSetup& machine_;
     MachinePort& port_;
     ProgramDesk& desk_;
     MdiSession& mdi_;

@@ -13,7 +13,7 @@ void Measuring::note_begin(const MeasurePlan* measures) {
     if (runs && newest_->plan.get() != measures) { fail(ended_early("the machine runs another job")); }
 }
 
-void Measuring::note(const ProbingRun& run, const MachineConfig& machine) {
+void Measuring::note(const ProbingRun& run, const MachineSetup& machine) {
     if (run.touch()) { touches_.push_back(*run.touch()); }
     newest_->touches = touches_.size();
     if (!run.is_over()) { return; }

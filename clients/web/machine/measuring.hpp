@@ -18,7 +18,7 @@ public:
     /// unless it is the next part of that.
     void note_begin(const MeasurePlan* measures);
     /// A part of its program is over, or the whole program.
-    void note(const ProbingRun& run, const MachineConfig& machine);
+    void note(const ProbingRun& run, const MachineSetup& machine);
     /// The machine refuses the next part.
     void fail(const Problem& problem);
 

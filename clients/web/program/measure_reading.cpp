@@ -19,7 +19,7 @@ std::shared_ptr<const ProgramFacts> facts_named(const std::string& name) {
 }
 
 std::expected<ReadyProgram, Problem> ready_touch(const ProbeOptions& options, MeasurePlan plan,
-                                                 const MachineConfig& machine, const ProgramStart& start) {
+                                                 const MachineSetup& machine, const ProgramStart& start) {
     const auto probe = chosen_probe(machine, options.probe);
     auto program = probe_program(machine, start.place_mm, options);
     if (!program) { return std::unexpected(not_measurable({{}, program.error()})); }
@@ -32,7 +32,7 @@ std::expected<ReadyProgram, Problem> ready_touch(const ProbeOptions& options, Me
 }
 
 std::expected<ReadyProgram, Problem> ready_touches(const MeasureOptions& options, MeasurePlan plan,
-                                                   const MachineConfig& machine, const ProgramStart& start) {
+                                                   const MachineSetup& machine, const ProgramStart& start) {
     auto program = measuring_program(machine, start.place_mm, options);
     if (!program) { return std::unexpected(not_measurable(program.error())); }
     auto stream = std::make_shared<ProgramStream>(
@@ -44,7 +44,7 @@ std::expected<ReadyProgram, Problem> ready_touches(const MeasureOptions& options
 
 }  // namespace
 
-std::expected<ReadyProgram, Problem> ready_measurement(const MeasureOrder& order, const MachineConfig& machine,
+std::expected<ReadyProgram, Problem> ready_measurement(const MeasureOrder& order, const MachineSetup& machine,
                                                        const ProgramStart& start) {
     MeasurePlan plan{.order = order, .program = {}, .start_mm = start.place_mm};
     if (const auto* touch = std::get_if<ProbeOptions>(&order.what)) {

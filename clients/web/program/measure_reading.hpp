@@ -6,7 +6,7 @@
 namespace lockstep::web {
 
 /// Fails with 422 for what the machine cannot measure from there, with the place in the order.
-std::expected<ReadyProgram, Problem> ready_measurement(const MeasureOrder& order, const MachineConfig& machine,
+std::expected<ReadyProgram, Problem> ready_measurement(const MeasureOrder& order, const MachineSetup& machine,
                                                        const ProgramStart& start);
 
 }  // namespace lockstep::web
