@@ -69,12 +69,9 @@ std::expected<AxisTarget, std::string> parse_target(std::string_view word) {
 }
 
 std::expected<AxisIndex, std::string> find_axis(const MachineConfig& machine, std::string_view name) {
-    std::string names;
-    for (const AxisIndex i : axis_indices(machine.axes.size())) {
-        if (same_name(machine.axes[i].name, name)) { return i; }
-        names += " " + machine.axes[i].name;
-    }
-    return std::unexpected(fmt::format("machine '{}' has no axis '{}'; it has:{}", machine.name, name, names));
+    if (const auto found = axis_in_any_case(machine, name)) { return *found; }
+    return std::unexpected(fmt::format("machine '{}' has no axis '{}'; it has: {}", machine.name, name,
+                                       fmt::join(machine.axis_names(), " ")));
 }
 
 std::expected<Program, std::string> move_program(const MachineConfig& machine, const std::vector<double>& start_mm,

@@ -52,4 +52,11 @@ bool same_name(std::string_view one, std::string_view other) {
     return std::ranges::equal(one, other, {}, small, small);
 }
 
+std::optional<AxisIndex> axis_in_any_case(const MachineConfig& machine, std::string_view name) {
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
+        if (same_name(machine.axes[i].name, name)) { return i; }
+    }
+    return std::nullopt;
+}
+
 }  // namespace lockstep

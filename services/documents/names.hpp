@@ -1,8 +1,11 @@
-// The syntax of the names used in topics, channels and files.
+// The syntax of the names used in topics, channels and files, and the axis that has a name.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "core/machine.hpp"
 
 namespace lockstep {
 
@@ -22,5 +25,7 @@ bool is_ip_address(const std::string& text);
 bool is_loopback_address(const std::string& text);
 /// Whether the names are equal except for upper and lower case.
 bool same_name(std::string_view one, std::string_view other);
+/// The axis with this name, in upper or lower case; nullopt if there is none.
+std::optional<AxisIndex> axis_in_any_case(const MachineConfig& machine, std::string_view name);
 
 }  // namespace lockstep

@@ -25,9 +25,7 @@ using Read = std::optional<Order> (*)(const Json& body, const MachineConfig& mac
 
 std::optional<AxisIndex> axis_of(const std::string& name, const std::string& place, const MachineConfig& machine,
                                  BodyReader& reader) {
-    const auto found =
-        std::ranges::find_if(machine.axes, [&](const AxisConfig& one) { return same_name(one.name, name); });
-    if (found != machine.axes.end()) { return AxisIndex{static_cast<std::size_t>(found - machine.axes.begin())}; }
+    if (const auto found = axis_in_any_case(machine, name)) { return found; }
     const std::string known = fmt::format("one of the machine's axes: {}", fmt::join(machine.axis_names(), ", "));
     reader.refuse(wrong_value(422, place, name, known));
     return std::nullopt;
