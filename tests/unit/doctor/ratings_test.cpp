@@ -97,7 +97,8 @@ TEST(DoctorOnStalls, AreRatedByTheTimingsAllowance) {
 
 TEST(DoctorOnStalls, ProposedTimingIsAcceptedAndAllowsTwiceTheMeasuredStall) {
     for (const double worst_us : {0.0, 80.0, 400.0, 3'000.0, 20'000.0, 50'000.0, 240'000.0}) {
-        MachineSetup machine{{.name = "m", .timing = timing_for({.worst_us = worst_us})}};
+        const ProtocolTiming today{.segment_entries = worst_us > 1000 ? 64 : 1024};
+        MachineSetup machine{{.name = "m", .timing = timing_for({.worst_us = worst_us}, today)}};
         machine.axes = {{.name = "X",
                          .steps_per_mm = 80,
                          .start_velocity_mm_s = 10,
