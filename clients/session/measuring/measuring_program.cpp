@@ -224,10 +224,6 @@ private:
 
 }  // namespace
 
-std::string_view name_of(MeasureKind kind) {
-    return pick_name({"edge", "angle", "corner", "bore", "boss", "tool", "surface"}, kind);
-}
-
 std::expected<MeasuringProgram, MeasureError> measuring_program(const MachineConfig& machine,
                                                                 const std::vector<double>& start_mm,
                                                                 const MeasureOptions& options) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <variant>
 
-#include "clients/session/measuring/measuring_program.hpp"
+#include "clients/session/measuring/measure_options.hpp"
 #include "clients/session/move_program.hpp"
 #include "clients/web/request/problem.hpp"
 #include "core/machine.hpp"

@@ -98,7 +98,7 @@ std::vector<NamedProgram> simple_paths() {
 }
 
 std::expected<std::vector<NamedProgram>, std::string> jobs_of(const std::filesystem::path& folder,
-                                                              const MachineConfig& machine) {
+                                                              const MachineSetup& machine) {
     std::vector<NamedProgram> jobs;
     for (const std::string name : {"engraving", "surface", "pocket", "print", "threads", "raster"}) {
         const auto file = folder / (name + ".gcode");

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/machine.hpp"
+#include "services/setup/machine_setup.hpp"
 #include "core/program.hpp"
 
 namespace lockstep::planners {
@@ -23,6 +23,6 @@ std::vector<NamedProgram> simple_paths();
 /// The job set, from the folder that make-jobs wrote. A job with arcs is listed twice: with chords of Klipper's default
 /// length and with finer ones. Error: the first problem of a file.
 std::expected<std::vector<NamedProgram>, std::string> jobs_of(const std::filesystem::path& folder,
-                                                              const MachineConfig& machine);
+                                                              const MachineSetup& machine);
 
 }  // namespace lockstep::planners

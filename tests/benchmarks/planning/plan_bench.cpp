@@ -22,8 +22,8 @@
 namespace lockstep {
 namespace {
 
-MachineConfig mill() {
-    MachineConfig machine{.name = "mill"};
+MachineSetup mill() {
+    MachineSetup machine{{.name = "mill"}};
     for (const char* name : {"X", "Y"}) {
         machine.axes.push_back({.name = name,
                                 .steps_per_mm = 80,
@@ -128,7 +128,7 @@ public:
 private:
     TemporaryDirectory directory_;
     std::filesystem::path file_ = directory_.path() / "program.gcode";
-    MachineConfig machine_ = mill();
+    MachineSetup machine_ = mill();
 };
 
 void forget_peak_of_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }

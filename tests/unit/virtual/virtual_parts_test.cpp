@@ -133,7 +133,7 @@ TEST(VirtualClient, NumbersItsCommands) {
 
 TEST(VirtualDevices, AStoppedDeviceDoesNotGoOnAndAKilledOneCannotBeOpened) {
     const MachineClocks clocks({}, kStart);
-    VirtualDevices devices(two_axes(), clocks, {}, 1, kStart);
+    VirtualDevices devices({.machine = MachineSetup{two_axes()}}, clocks, kStart);
     EXPECT_TRUE(devices.open(MotorIndex{0}));
     const VirtualFault kill{.kind = VirtualFault::Kind::KillDevice, .process = 0};
     devices.begin(kill, kStart + Ticks{10});

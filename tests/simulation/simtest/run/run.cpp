@@ -12,7 +12,7 @@ namespace {
 
 /// A machine that no configuration could describe proves nothing.
 Violations check_configuration(const MachineConfig& machine) {
-    std::vector<Problem> problems = machine_problems(machine);
+    std::vector<Problem> problems = machine_problems(MachineSetup{machine});
     for (const AxisIndex i : axis_indices(machine.axes.size())) {
         for (Problem& problem : axis_problems(machine, i)) { problems.push_back(std::move(problem)); }
         for (Problem& problem : motor_problems(machine, i)) { problems.push_back(std::move(problem)); }

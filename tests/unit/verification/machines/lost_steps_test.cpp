@@ -21,7 +21,7 @@ class RecordedLosses : public testing::Test {
 protected:
     /// A hand pushes Y by 20 steps in the first program. The motor makes them up before the second one.
     RecordedLosses() {
-        MachineConfig machine = test::example("two-axis");
+        MachineSetup machine = test::example("two-axis");
         machine.axes[test::kY].max_following_error_mm = 50 / machine.axes[test::kY].steps_per_mm;
         machine.axes[test::kY].correct_following_error_mm = 2 / machine.axes[test::kY].steps_per_mm;
         RecordedMachine recorded(machine, log());

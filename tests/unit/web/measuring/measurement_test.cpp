@@ -13,8 +13,8 @@ namespace {
 
 using testing::HasSubstr;
 
-MachineConfig mill() {
-    MachineConfig machine = two_axes();
+MachineSetup mill() {
+    MachineSetup machine = two_axes();
     machine.axes.push_back(example_axis("Z", 0, 100));
     machine.inputs = {{.name = "tip", .motor = "Z", .channel = 3, .use = InputUse::Probe, .number = 0}};
     return machine;
@@ -74,7 +74,7 @@ TEST(Measurements, OfOneTouchHaveThePlaceOfEachAxis) {
 }
 
 TEST(Measurements, AreRefusedWithTheReasonBeforeAnythingMoves) {
-    MachineConfig without = mill();
+    MachineSetup without = mill();
     without.inputs.clear();
     for (const MeasureOrder& order : {bore(), touch_of_z()}) {
         const auto ready = ready_measurement(order, without, kStart);
