@@ -23,8 +23,7 @@ struct Options {
 
 using Done = std::expected<void, std::string>;
 
-std::expected<std::vector<NamedProgram>, std::string> programs_of(const Options& options,
-                                                                  const MachineSetup& machine) {
+std::expected<std::vector<NamedProgram>, std::string> programs_of(const Options& options, const MachineSetup& machine) {
     std::vector<NamedProgram> all = simple_paths();
     auto jobs = jobs_of(options.jobs, machine);
     if (!jobs) { return std::unexpected(jobs.error()); }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "services/setup/machine_setup.hpp"
 #include "core/program.hpp"
+#include "services/setup/machine_setup.hpp"
 
 namespace lockstep::planners {
 
