@@ -70,7 +70,7 @@ struct WebConfig {
     bool operator==(const WebConfig&) const = default;
 };
 
-/// What moves, and decides how, is the MachineConfig alone: core knows nothing of the rest.
+/// A machine as core knows it, and the settings of its processes, which core does not know.
 struct MachineSetup : MachineConfig {
     NetworkConfig network;
     SecurityConfig security;

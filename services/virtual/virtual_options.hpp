@@ -30,7 +30,7 @@ struct VirtualOptions {
     /// How late the device of each axis answers. Axes without an entry use its registers. A device that answers late
     /// has its own clock, so its axis must estimate one (estimates_clock).
     std::vector<LinkDelay> links;
-    /// What the device of each motor is built for. Motors without an entry have a simulated device as usual.
+    /// The abilities of each motor's device. A motor without an entry has a simulated device with the usual ones.
     std::vector<DeviceAbilities> devices;
     /// Returns the flight log of a process; called at each of its starts. Empty: no process has one.
     std::function<FlightLog&(std::size_t process)> flight;

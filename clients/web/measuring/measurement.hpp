@@ -19,7 +19,7 @@
 
 namespace lockstep::web {
 
-/// What is measured. It stays as it is from the command on.
+/// A measurement as it was asked for, from its command to its result.
 struct MeasurePlan {
     MeasureOrder order;
     MeasuringProgram program;      // of several touches; of one touch only its probe counts

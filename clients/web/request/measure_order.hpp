@@ -16,7 +16,7 @@ struct MeasureOrder {
     std::variant<ProbeOptions, MeasureOptions> what;  // one touch, or several that a subroutine makes
 };
 
-/// What becomes of the newest measurement. One of both is given.
+/// Where the newest measurement is kept: in a coordinate system, or as the length of a tool.
 struct KeepOrder {
     std::string system;       // its zero, or its rotation
     std::optional<int> tool;  // its length

@@ -68,7 +68,7 @@ TEST(DeviceAbilities, AFrameThatStaysInTheRingNeedsRoomBesideThoseSentAhead) {
     EXPECT_EQ(one.lack(device), "");
 }
 
-/// What an error asks for suffices, and one entry more does not.
+/// With the value that the error names the device is accepted. A value that is greater by one entry a frame is refused.
 TEST(DeviceAbilities, ASmallRingSufficesForTheEntriesThatTheErrorNames) {
     for (const bool stay : {false, true}) {
         for (const int device_entries : {256, 512}) {

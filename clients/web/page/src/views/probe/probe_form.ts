@@ -1,4 +1,4 @@
-// What a person enters to measure: the kind, and the values that this kind needs.
+// The form of a measurement: its kind, and the values that this kind needs.
 import type { Machine, MeasureKind } from "../../api/contract";
 import { h, setAttribute, setText, show } from "../../dom/element";
 import { FIRST_VALUES, KINDS, NUMBER_FIELDS, type Flag, type NumberField } from "../../probe/kinds";
