@@ -45,7 +45,7 @@ using std::chrono::nanoseconds;
 OpenDevice opener_of(const DeviceName& device, const MotorConfig& motor, const MachineClock& clock,
                      const MachineSetup& machine) {
     if (device.kind == DeviceName::Kind::Simulated) {
-        return [machine, motor](Tick now) { return simulated_port(machine, machine.network.domain, motor, now); };
+        return [machine, motor](Tick now) { return simulated_port(machine, motor, now, machine.network.domain); };
     }
     if (device.kind == DeviceName::Kind::Linked) {
         MotorConfig linked = motor;

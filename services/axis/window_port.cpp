@@ -53,8 +53,8 @@ std::expected<DeviceDriver, std::string> attach_driver(RegisterWindow window, co
 }
 
 std::expected<std::unique_ptr<DevicePort>, std::string> simulated_port(const MachineConfig& machine,
-                                                                       std::uint32_t domain, const MotorConfig& motor,
-                                                                       Tick now) {
+                                                                       const MotorConfig& motor, Tick now,
+                                                                       std::uint32_t domain) {
     const RegisterWindow window = RegisterWindow::in_process();
     auto device = std::make_unique<SimulatedDevice>(window, plant_of(machine, motor), machine.tick_ns, now,
                                                     static_cast<std::uint64_t>(now.value));

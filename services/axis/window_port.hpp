@@ -60,10 +60,10 @@ std::expected<DeviceDriver, std::string> find_device(RegisterWindow window, cons
 std::expected<DeviceDriver, std::string> attach_driver(RegisterWindow window, const MachineConfig& machine,
                                                        const MotorConfig& motor);
 
-/// The port to a device that is simulated in this process, powered up at `now`. Errors: those of attach_driver and
-/// TouchedDevice::open.
+/// The port to a device that is simulated in this process, powered up at `now`. `domain`: of the machine's network, if
+/// it has a workpiece (SharedSlides). Errors: those of attach_driver and TouchedDevice::open.
 std::expected<std::unique_ptr<DevicePort>, std::string> simulated_port(const MachineConfig& machine,
-                                                                       std::uint32_t domain, const MotorConfig& motor,
-                                                                       Tick now);
+                                                                       const MotorConfig& motor, Tick now,
+                                                                       std::uint32_t domain = 0);
 
 }  // namespace lockstep
