@@ -166,7 +166,7 @@ TEST(HostileAxisCommands, AreRefused) {
         change(wire);
         expect_refused(wire, field);
     };
-    refused("kind", [](auto& w) { overwrite(w.kind, 9); });
+    refused("kind", [](auto& w) { overwrite(w.kind, lockstep_wire_AXIS_CORRECT + 1); });
     refused("target_steps", [](auto& w) { w.target_steps = INT64_MAX; });
     refused("axis", [](auto& w) { w.axis = kMaxAxes; });
     refused("speed_mm_s", [](auto& w) { w.speed_mm_s = std::nan(""); });
