@@ -82,10 +82,10 @@ TEST(MachineFile, JogsHoldForTwentyMillisecondsAndNotUnhomedUnlessItSaysSo) {
 }
 
 TEST(MachineFile, RingsHaveTheUsualSizesUnlessItSaysSo) {
-    const MachineConfig usual = parse(std::string(kShortest));
+    const MachineSetup usual = parse(std::string(kShortest));
     EXPECT_EQ(config_hash(parse(machine_with("timing { segment_entries: 1024 output_entries: 1024 }"))),
               config_hash(usual));
-    const MachineConfig small = parse(machine_with("timing { segment_entries: 224 output_entries: 40 }"));
+    const MachineSetup small = parse(machine_with("timing { segment_entries: 224 output_entries: 40 }"));
     EXPECT_EQ(small.timing.segment_entries, 224);
     EXPECT_EQ(parse(machine_text(small)).timing.output_entries, 40);
 }

@@ -12,7 +12,8 @@ using testing::HasSubstr;
 
 /// The coordinator and X on "mill"; Y and Z on their own boards; a turntable without a host.
 MachineSetup boards() {
-    MachineSetup machine{{.name = "mill", .coordinator_host = "mill.lan"}};
+    MachineSetup machine{{.name = "mill"}};
+    machine.coordinator_host = "mill.lan";
     machine.axes = {{.name = "X", .host = "mill"},
                     {.name = "Y", .host = "Board-Y"},
                     {.name = "Z", .host = "board-z.lan"},
