@@ -62,7 +62,8 @@ private:
 
 class Run {
 public:
-    Run(const MachineConfig& machine, const FrameBytes& frame_bytes) : vm_({.machine = machine}), meter_(frame_bytes) {
+    Run(const MachineConfig& machine, const FrameBytes& frame_bytes)
+        : vm_({.machine = MachineSetup{machine}}), meter_(frame_bytes) {
         vm_.observe(meter_);
         reach(MachinePhase::Idle);
         (void)vm_.command(CommandKind::Home);

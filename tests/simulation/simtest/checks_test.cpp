@@ -260,7 +260,7 @@ TEST(Joints, OfJoinedMovesAreThoseOfEveryAxis) {
 TEST(Claims, WithAnExtraStepAreUntrue) {
     const Scenario scenario = two_axes();
     Recording recording{.machine = scenario.machine, .motors = std::vector<MotorRecord>(2)};
-    VirtualMachine vm({.machine = scenario.machine});
+    VirtualMachine vm({.machine = MachineSetup{scenario.machine}});
     ClaimCheck claims(vm, recording);
     FalsifyingObserver falsifier(claims);
     vm.observe(falsifier);

@@ -275,11 +275,11 @@ TEST_F(Rig, AnEncoderThatCountsTheWrongWayIsNoticedInTheFirstMoveOfAHomedAxis) {
 class RigWithoutSwitch : public Rig {
 protected:
     RigWithoutSwitch()
-        : Rig({.machine = [] {
-              MachineConfig machine = small_machine();
-              machine.axes[0].homing.switch_position_mm = -50;  // behind the limit switch
-              return machine;
-          }()}) {}
+        : Rig({.machine = MachineSetup{[] {
+                   MachineConfig machine = small_machine();
+                   machine.axes[0].homing.switch_position_mm = -50;  // behind the limit switch
+                   return machine;
+               }()}}) {}
 };
 
 TEST_F(RigWithoutSwitch, HomingWithoutASwitchIsAFault) {
@@ -293,11 +293,11 @@ TEST_F(RigWithoutSwitch, HomingWithoutASwitchIsAFault) {
 class RigOnSwitch : public Rig {
 protected:
     RigOnSwitch()
-        : Rig({.machine = [] {
-              MachineConfig machine = small_machine();
-              machine.axes[0].plant.start_position_mm = -1.5;  // on the home switch
-              return machine;
-          }()}) {}
+        : Rig({.machine = MachineSetup{[] {
+                   MachineConfig machine = small_machine();
+                   machine.axes[0].plant.start_position_mm = -1.5;  // on the home switch
+                   return machine;
+               }()}}) {}
 };
 
 TEST_F(RigOnSwitch, AnAxisThatStandsOnItsSwitchPullsOffFirst) {
@@ -426,7 +426,7 @@ TEST(Coordinator, DoesNotTakeItsOwnStallForTheSilenceOfOthers) {
 
 TEST(Coordinator, AnswersCommandsReceivedDuringItsStall) {
     const MachineConfig machine = small_machine();
-    VirtualMachine vm({.machine = machine});
+    VirtualMachine vm({.machine = MachineSetup{machine}});
     (void)vm.advance_until([&] { return vm.state() && vm.state()->phase == MachinePhase::Idle; }, Ticks{2'000'000});
     const Ticks stall = machine.slot_ticks() * (2 * rules::silence_slots(machine.timing));
     vm.schedule({.kind = VirtualFault::Kind::Freeze, .process = machine.axes.size(), .at = vm.now(), .lasts = stall});

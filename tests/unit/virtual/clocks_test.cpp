@@ -13,7 +13,7 @@ MachineConfig network_machine(std::int64_t limit_us = 250) {
 }
 
 VirtualOptions own_clocks(std::int64_t limit_us = 250) {
-    VirtualOptions options{.machine = network_machine(limit_us)};
+    VirtualOptions options{.machine = MachineSetup{network_machine(limit_us)}};
     options.network = {.delay_min{20}, .delay_max{300}, .lost = 0.02};
     options.start = Tick{10'000'000};
     options.clocks = test::clocks_apart();

@@ -168,13 +168,13 @@ TEST_F(Faults, AfterLostStepsAHomingMakesTheAxisGoodAgain) {
 class RigFarBehindSwitch : public Rig {
 protected:
     RigFarBehindSwitch()
-        : Rig({.machine = [] {
-              MachineConfig machine = small_machine();
-              machine.axes[0].homing.switch_position_mm = 40;
-              machine.axes[0].homing.park_mm = 50;
-              machine.axes[0].plant.start_position_mm = 3;
-              return machine;
-          }()}) {}
+        : Rig({.machine = MachineSetup{[] {
+                   MachineConfig machine = small_machine();
+                   machine.axes[0].homing.switch_position_mm = 40;
+                   machine.axes[0].homing.park_mm = 50;
+                   machine.axes[0].plant.start_position_mm = 3;
+                   return machine;
+               }()}}) {}
 };
 
 TEST_F(RigFarBehindSwitch, AnAxisMovesAwayFromItsSwitchHoweverFarThatIs) {

@@ -47,7 +47,9 @@ MachineConfig machine_that_homes_by(StepMethod method) {
 /// Begins homing, ends it some time later, and homes again.
 class EndedHoming : public Rig {
 public:
-    explicit EndedHoming(StepMethod method) : Rig({.machine = machine_that_homes_by(method)}) { vm.observe(log_); }
+    explicit EndedHoming(StepMethod method) : Rig({.machine = MachineSetup{machine_that_homes_by(method)}}) {
+        vm.observe(log_);
+    }
 
     /// Returns false if homing was done before that.
     bool ends_after(std::int64_t ms, CommandKind how) {
@@ -155,7 +157,7 @@ INSTANTIATE_TEST_SUITE_P(All, HomingStops,
 
 class HomingRig : public Rig {
 protected:
-    explicit HomingRig(MachineConfig machine = small_machine()) : Rig({.machine = std::move(machine)}) {}
+    explicit HomingRig(MachineConfig machine = small_machine()) : Rig({.machine = MachineSetup{std::move(machine)}}) {}
 
     void begin_homing() {
         ASSERT_TRUE(reaches(MachinePhase::Idle, 2));

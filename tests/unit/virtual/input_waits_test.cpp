@@ -20,7 +20,8 @@ MachineConfig machine_with_clamp() {
 
 class InputWaits : public Rig {
 protected:
-    explicit InputWaits(const VirtualOptions& options = {.machine = machine_with_clamp()}) : Rig(options) {}
+    explicit InputWaits(const VirtualOptions& options = {.machine = MachineSetup{machine_with_clamp()}})
+        : Rig(options) {}
 
     void wait_for(InputMode mode, double seconds) {
         home();
@@ -162,7 +163,9 @@ TEST_F(InputWaits, AreEndedByAnEmergencyStop) {
 class InputWaitsWithStandby : public InputWaits {
 protected:
     InputWaitsWithStandby()
-        : InputWaits({.machine = machine_with_clamp(), .on_takeover = OnTakeover::Continue, .coordinators = 2}) {}
+        : InputWaits(
+              {.machine = MachineSetup{machine_with_clamp()}, .on_takeover = OnTakeover::Continue, .coordinators = 2}) {
+    }
 
     void lose_owner() {
         const std::size_t owner = vm.owner().value();

@@ -24,7 +24,8 @@ MachineConfig machine_with_inputs() {
 
 class Inputs : public Rig, public VirtualObserver {
 protected:
-    explicit Inputs(MachineConfig machine = machine_with_inputs()) : Rig({.machine = std::move(machine)}) {
+    explicit Inputs(MachineConfig machine = machine_with_inputs())
+        : Rig({.machine = MachineSetup{std::move(machine)}}) {
         vm.observe(*this);
     }
     void on_step(MotorIndex axis, StepEdge step) override { last_step[axis] = step.tick; }
@@ -126,7 +127,7 @@ TEST_F(Inputs, AnEmergencyStopBringsAllAxesToRestWithoutACoordinator) {
 
 TEST_F(Inputs, AnEmergencyStopThatIsPressedWhenTheMachineStartsIsItsFault) {
     MachineConfig machine = machine_with_inputs();
-    VirtualMachine other({.machine = machine});
+    VirtualMachine other({.machine = MachineSetup{machine}});
     set_input(other.device(kY).plant(), machine.inputs[kStop], true);
     const auto is_in_fault = [&] { return other.state() && other.state()->phase == MachinePhase::Fault; };
     ASSERT_TRUE(other.advance_until(is_in_fault, Ticks{2'000'000}));

@@ -34,7 +34,7 @@ public:
 
 class AJog : public Rig {
 protected:
-    AJog() : Rig({.machine = machine_to_jog()}) { vm.observe(log); }
+    AJog() : Rig({.machine = MachineSetup{machine_to_jog()}}) { vm.observe(log); }
 
     void home_all() {
         home();

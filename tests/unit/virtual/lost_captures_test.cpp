@@ -41,7 +41,7 @@ public:
 
 class LostCaptures : public Rig, public VirtualObserver {
 protected:
-    LostCaptures() : Rig({.machine = fast_machine()}) { vm.observe(*this); }
+    LostCaptures() : Rig({.machine = MachineSetup{fast_machine()}}) { vm.observe(*this); }
     void on_axis(MotorIndex axis, Tick, const AxisOutputs&, AxisNode& node) override {
         if (axis == 0) { lost = static_cast<std::int64_t>(node.device().lost_captures()); }
     }

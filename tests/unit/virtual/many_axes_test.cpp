@@ -14,7 +14,7 @@ MachineConfig full_machine() {
 
 class FullMachine : public Rig {
 protected:
-    FullMachine() : Rig({.machine = full_machine()}) {}
+    FullMachine() : Rig({.machine = MachineSetup{full_machine()}}) {}
 
     Program all_to(double mm) const {
         Program program{.name = "test", .axes = {}, .start_mm = std::vector<double>(kMaxAxes, 5)};

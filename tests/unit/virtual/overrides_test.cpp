@@ -130,7 +130,7 @@ MachineConfig by_lai() {
 
 class OverriddenByLai : public Overridden {
 protected:
-    OverriddenByLai() : Overridden({.machine = by_lai()}) {}
+    OverriddenByLai() : Overridden({.machine = MachineSetup{by_lai()}}) {}
 };
 
 TEST_F(OverriddenByLai, IsRefusedWithTheRemedy) {

@@ -45,7 +45,7 @@ public:
 
 class OwnMoves : public Rig {
 protected:
-    explicit OwnMoves(StepMethod method = StepMethod::Ranade) : Rig({.machine = machine_by(method)}) {
+    explicit OwnMoves(StepMethod method = StepMethod::Ranade) : Rig({.machine = MachineSetup{machine_by(method)}}) {
         vm.observe(log);
     }
 

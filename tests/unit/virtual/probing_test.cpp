@@ -33,7 +33,8 @@ public:
 
 class ProbingMoves : public Rig {
 protected:
-    explicit ProbingMoves(const VirtualOptions& options = {.machine = machine_with_probe()}) : Rig(options) {
+    explicit ProbingMoves(const VirtualOptions& options = {.machine = MachineSetup{machine_with_probe()}})
+        : Rig(options) {
         vm.observe(log);
     }
 

@@ -36,7 +36,7 @@ MachineConfig machine_that_moves_by(StepMethod method) {
 
 class SilentCoordinator : public Rig, public testing::WithParamInterface<StepMethod> {
 protected:
-    SilentCoordinator() : Rig({.machine = machine_that_moves_by(GetParam())}) { vm.observe(log); }
+    SilentCoordinator() : Rig({.machine = MachineSetup{machine_that_moves_by(GetParam())}}) { vm.observe(log); }
 
     void silence(Kind kind, double seconds) {
         silent_since_ = vm.now();

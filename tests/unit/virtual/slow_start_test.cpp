@@ -14,7 +14,7 @@ MachineConfig machine_with_slow_start() {
 
 class SlowStart : public Rig {
 protected:
-    SlowStart() : Rig({.machine = machine_with_slow_start()}) {}
+    SlowStart() : Rig({.machine = MachineSetup{machine_with_slow_start()}}) {}
 };
 
 TEST_F(SlowStart, AxisWaitsHalfAStepAndHomes) {

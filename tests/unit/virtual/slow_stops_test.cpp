@@ -28,7 +28,8 @@ public:
 
 class SlowMotion : public Rig {
 protected:
-    explicit SlowMotion(const MachineConfig& machine = machine_to_slow_down()) : Rig({.machine = machine}) {
+    explicit SlowMotion(const MachineConfig& machine = machine_to_slow_down())
+        : Rig({.machine = MachineSetup{machine}}) {
         vm.observe(pulses);
     }
 

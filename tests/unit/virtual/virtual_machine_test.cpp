@@ -20,7 +20,7 @@ std::string describe(const VirtualMachine& vm) {
 
 class TwoAxes : public testing::Test {
 protected:
-    TwoAxes() : vm({.machine = *load_machine_file("deploy/examples/three-axis.textproto")}) {}
+    TwoAxes() : vm({.machine = MachineSetup{*load_machine_file("deploy/examples/three-axis.textproto")}}) {}
 
     bool reaches(MachinePhase phase, double seconds) {
         const Ticks limit{static_cast<std::int64_t>(seconds * vm.machine().ticks_per_second())};

@@ -131,7 +131,7 @@ MachineConfig machine_that_holds() {
 /// The job of a client that falls silent is held.
 class Unattended : public TwoWriters {
 protected:
-    Unattended() : TwoWriters({.machine = machine_that_holds()}) {}
+    Unattended() : TwoWriters({.machine = MachineSetup{machine_that_holds()}}) {}
 
     Reply run_as_anna() {
         home();

@@ -49,7 +49,7 @@ Bench::Bench(const Scenario& scenario, Played& played)
       kinematics_(scenario.machine),
       map_(scenario.machine),
       played_(played),
-      vm_({.machine = scenario.machine,
+      vm_({.machine = MachineSetup{scenario.machine},
            .seed = scenario.seed,
            .network = scenario.network,
            .start = scenario.power_up,

@@ -34,7 +34,7 @@ Program switching() {
 
 class Boards : public Rig {
 protected:
-    explicit Boards(MachineConfig machine = with_board()) : Rig({.machine = std::move(machine)}) {}
+    explicit Boards(MachineConfig machine = with_board()) : Rig({.machine = MachineSetup{std::move(machine)}}) {}
 
     /// Of the board's device.
     bool is_air_on() const { return (vm.device(kIo).outputs().digital() & kAir) != 0; }

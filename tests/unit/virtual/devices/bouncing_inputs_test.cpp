@@ -49,7 +49,7 @@ public:
 
 class BouncingInputs : public testing::WithParamInterface<Bounce>, public Rig {
 protected:
-    BouncingInputs() : Rig({.machine = machine_with(GetParam())}) {}
+    BouncingInputs() : Rig({.machine = MachineSetup{machine_with(GetParam())}}) {}
     Ticks ms(double time) const { return Ticks{std::llround(time * 1e-3 * vm.machine().ticks_per_second())}; }
 
     ProbeChanges changes;

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 class LimitInputs : public Rig, public VirtualObserver {
 protected:
     explicit LimitInputs(std::vector<InputConfig> inputs, bool has_board = false)
-        : Rig({.machine = machine_with(std::move(inputs), has_board)}) {
+        : Rig({.machine = MachineSetup{machine_with(std::move(inputs), has_board)}}) {
         vm.observe(*this);
     }
     void on_step(MotorIndex axis, StepEdge step) override { last_step[axis] = step.tick; }

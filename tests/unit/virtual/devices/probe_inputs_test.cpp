@@ -40,7 +40,8 @@ MachineConfig machine_with_probe_inputs() {
 
 class ProbeOfSeveralInputs : public Rig {
 protected:
-    explicit ProbeOfSeveralInputs(const VirtualOptions& options = {.machine = machine_with_probe_inputs()})
+    explicit ProbeOfSeveralInputs(
+        const VirtualOptions& options = {.machine = MachineSetup{machine_with_probe_inputs()}})
         : Rig(options) {
         vm.observe(log);
     }
@@ -172,7 +173,7 @@ TEST_F(ProbeOfSeveralInputs, AwayDoesNotMoveIfAllAreOpen) {
 class ProbeOfSeveralClocks : public ProbeOfSeveralInputs {
 protected:
     static VirtualOptions options() {
-        VirtualOptions options{.machine = machine_with_probe_inputs()};
+        VirtualOptions options{.machine = MachineSetup{machine_with_probe_inputs()}};
         options.machine.timing.time_source = TimeSource::Network;
         options.machine.timing.clock_error_limit_us = 250;
         options.network = {.delay_min{20}, .delay_max{300}};

@@ -25,7 +25,7 @@ MachineConfig engraver() {
 
 class ReportedOutputs : public Rig {
 protected:
-    ReportedOutputs() : Rig({.machine = engraver()}) {}
+    ReportedOutputs() : Rig({.machine = MachineSetup{engraver()}}) {}
 
     /// 45 mm along both axes at 20 mm/s: M4 S600, M69 P0 Q10 R0.5 L61.
     void begin_program() {

@@ -25,7 +25,7 @@ MachineConfig mill(double spin_up_s) {
 
 class ASpindle : public Rig, public VirtualObserver {
 protected:
-    explicit ASpindle(double spin_up_s = 30) : Rig({.machine = mill(spin_up_s)}) { vm.observe(*this); }
+    explicit ASpindle(double spin_up_s = 30) : Rig({.machine = MachineSetup{mill(spin_up_s)}}) { vm.observe(*this); }
     void on_step(MotorIndex /*axis*/, StepEdge step) override {
         first_step = std::min(first_step.value_or(step.tick), step.tick);
     }

@@ -21,7 +21,7 @@ MachineConfig machine_with(TouchInMotion reaction) {
 
 class TouchesInMotion : public Rig {
 protected:
-    explicit TouchesInMotion(TouchInMotion reaction) : Rig({.machine = machine_with(reaction)}) {}
+    explicit TouchesInMotion(TouchInMotion reaction) : Rig({.machine = MachineSetup{machine_with(reaction)}}) {}
 
     void begin(const std::vector<double>& place = {45, 25}) {
         home();

@@ -29,7 +29,7 @@ MachineConfig loose_machine() {
 class Loose : public Rig {
 protected:
     explicit Loose(const MachineConfig& machine = loose_machine())
-        : Loose(VirtualOptions{.machine = machine, .keeps_positions = true}) {}
+        : Loose(VirtualOptions{.machine = MachineSetup{machine}, .keeps_positions = true}) {}
     explicit Loose(const VirtualOptions& options) : Rig(options), kinematics(options.machine) {}
 
     /// The place that people see.
@@ -202,7 +202,7 @@ protected:
     LooseWithStandby() : Loose(options()) {}
 
     static VirtualOptions options() {
-        VirtualOptions options{.machine = loose_machine()};
+        VirtualOptions options{.machine = MachineSetup{loose_machine()}};
         options.machine.axes[kX].backlash->speed_mm_s = 0.2;
         options.on_takeover = OnTakeover::Continue;
         options.coordinators = 2;

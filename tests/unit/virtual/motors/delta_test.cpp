@@ -13,7 +13,7 @@ using Tool = std::array<double, 3>;  // mm
 
 class Delta : public Rig {
 protected:
-    explicit Delta(const VirtualOptions& options = {.machine = delta_machine()}) : Rig(options) {}
+    explicit Delta(const VirtualOptions& options = {.machine = MachineSetup{delta_machine()}}) : Rig(options) {}
 
     /// The carriages at a place of the tool in steps, by the theorem of Pythagoras.
     std::array<long double, 3> carriages(const Tool& at) const {
@@ -217,7 +217,8 @@ TEST_F(Delta, RefusesWhatWouldMoveOneCarriageAlone) {
 /// Two coordinators; processes 3 and 4.
 class DeltaWithStandby : public Delta {
 protected:
-    DeltaWithStandby() : Delta({.machine = delta_machine(), .on_takeover = OnTakeover::Continue, .coordinators = 2}) {}
+    DeltaWithStandby()
+        : Delta({.machine = MachineSetup{delta_machine()}, .on_takeover = OnTakeover::Continue, .coordinators = 2}) {}
 };
 
 TEST_F(DeltaWithStandby, FinishesItsCircleAfterATakeover) {
@@ -245,7 +246,7 @@ MachineConfig delta_without_switches() {
 
 class DeltaInPlace : public Delta {
 protected:
-    DeltaInPlace() : Delta({.machine = delta_without_switches()}) {}
+    DeltaInPlace() : Delta({.machine = MachineSetup{delta_without_switches()}}) {}
 };
 
 TEST_F(DeltaInPlace, TakesThePlaceWhereItStandsForItsPark) {

@@ -33,7 +33,8 @@ public:
 
 class LostSteps : public Rig {
 protected:
-    explicit LostSteps(const MachineConfig& machine = correcting(small_machine())) : Rig({.machine = machine}) {
+    explicit LostSteps(const MachineConfig& machine = correcting(small_machine()))
+        : Rig({.machine = MachineSetup{machine}}) {
         vm.observe(losses);
         vm.observe(log);
     }

@@ -12,7 +12,7 @@ constexpr std::size_t kY2 = 2;
 
 class Gantry : public Rig {
 protected:
-    explicit Gantry(double racked_mm = 0.8) : Rig({.machine = gantry(racked_mm)}) {}
+    explicit Gantry(double racked_mm = 0.8) : Rig({.machine = MachineSetup{gantry(racked_mm)}}) {}
     /// In steps since power-up.
     std::int64_t slide(std::size_t motor) const { return vm.device(motor).plant().encoder(); }
 };
@@ -125,7 +125,7 @@ TEST_F(Gantry, IsStoppedWhileHomingWhereItsMotorsComeApart) {
 
 class TwoBelts : public Rig {
 protected:
-    TwoBelts() : Rig({.machine = two_belts()}) {}
+    TwoBelts() : Rig({.machine = MachineSetup{two_belts()}}) {}
 };
 
 TEST_F(TwoBelts, AreHomedWhereTheyStand) {

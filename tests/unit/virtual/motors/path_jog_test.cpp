@@ -23,7 +23,8 @@ struct EpochLog : VirtualObserver {
 
 class PathJogs : public Rig {
 protected:
-    explicit PathJogs(MachineConfig machine) : Rig({.machine = std::move(machine)}), kinematics(vm.machine()) {}
+    explicit PathJogs(MachineConfig machine)
+        : Rig({.machine = MachineSetup{std::move(machine)}}), kinematics(vm.machine()) {}
 
     void jog(double seconds) { pass(vm, {&client, &other}, Ticks{std::llround(seconds * 1e6)}); }
     MachinePhase phase() const { return vm.state()->phase; }

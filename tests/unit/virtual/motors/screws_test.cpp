@@ -35,7 +35,7 @@ double motor_at(const std::vector<ScrewPoint>& screw, double mm) {
 class Corrected : public Rig {
 protected:
     explicit Corrected(const MachineConfig& machine = machine_with_screw())
-        : Rig({.machine = machine}), kinematics(machine) {}
+        : Rig({.machine = MachineSetup{machine}}), kinematics(machine) {}
 
     Reply move_own(double x_mm, double from_mm) {
         vm.give_program(70, program_of({{x_mm, 5}}, 0, {from_mm, 5}));

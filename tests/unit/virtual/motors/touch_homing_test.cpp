@@ -37,7 +37,8 @@ MachineConfig switch_elsewhere() {
 
 class HomingByTouch : public Rig {
 protected:
-    explicit HomingByTouch(const MachineConfig& machine = belts_from(30, 40)) : Rig({.machine = machine}) {}
+    explicit HomingByTouch(const MachineConfig& machine = belts_from(30, 40))
+        : Rig({.machine = MachineSetup{machine}}) {}
 
     void begin_homing() {
         ASSERT_TRUE(reaches(MachinePhase::Idle, 2)) << describe();
