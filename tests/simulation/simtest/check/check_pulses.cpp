@@ -189,10 +189,11 @@ std::vector<ChannelEvent> notes_in(const MotorRecord& motor, const JobRecord& jo
     return notes;
 }
 
-/// Where a motor stands before its first step of a job; nullopt if it makes none.
+/// Where a motor stands before its first step of a job; nullopt if it makes none. It may make up lost steps before
+/// that, in a move of its own.
 std::optional<std::int64_t> count_before(const MotorRecord& motor, const JobRecord& job) {
-    const auto first =
-        std::ranges::find_if(motor.tracks, [&](const Track& track) { return track.commanded >= job.began; });
+    const auto first = std::ranges::find_if(
+        motor.tracks, [&](const Track& track) { return track.commanded >= job.began && track.epoch != 0; });
     return first == motor.tracks.end() ? std::nullopt : std::optional(first->from.count());
 }
 
