@@ -48,21 +48,16 @@ std::optional<std::string> lack_of_room(const DeviceAbilities& device, const Dev
                                         const MachineConfig& machine) {
     const auto ahead = static_cast<std::uint64_t>(frames_ahead(machine.timing));
     const std::uint64_t there = ahead + (device.frames_stay ? 1 : 0);
-    const std::uint64_t entries = needs.segment_entries / ahead * there;
-    const std::uint64_t changes = needs.output_entries / ahead * there;
-    if (device.segment_entries < entries) {
-        return "device: its segment ring has " + text_of(device.segment_entries) +
-               " entries, and the frames that are sent ahead need " + text_of(entries) +
-               "; decrease timing.segment_entries to " + text_of(device.segment_entries / there * ahead) +
-               ", or use a device with more";
-    }
-    if (device.output_entries < changes) {
-        return "device: its output ring has " + text_of(device.output_entries) +
-               " entries, and the frames that are sent ahead need " + text_of(changes) +
-               "; decrease timing.output_entries to " + text_of(device.output_entries / there * ahead) +
-               ", or use a device with more";
-    }
-    return std::nullopt;
+    const auto lack = [&](const std::string& ring, std::uint64_t has, std::uint64_t ahead_need) {
+        const std::uint64_t need = ahead_need / ahead * there;
+        if (has >= need) { return std::optional<std::string>(); }
+        return std::optional("device: its " + ring + " ring has " + text_of(has) +
+                             " entries, and the frames that are sent ahead need " + text_of(need) +
+                             "; decrease timing." + ring + "_entries to " + text_of(has / there * ahead) +
+                             ", or use a device with more");
+    };
+    if (auto segments = lack("segment", device.segment_entries, needs.segment_entries)) { return segments; }
+    return lack("output", device.output_entries, needs.output_entries);
 }
 
 std::optional<std::string> lack_of_time(const DeviceAbilities& device, const DeviceAbilities& needs) {

@@ -143,4 +143,9 @@ private:
     Activity activity_;
 };
 
+/// Motors make up lost steps before a job goes on.
+inline bool is_correcting(const MachineActivity& activity) {
+    return activity.is<activity::OwnMoves>() && activity.pause() != nullptr;
+}
+
 }  // namespace lockstep

@@ -152,14 +152,13 @@ CommandResult press_on_path(const Command& command, activity::OnPath& path, JobL
 /// Homing and a jog cannot continue after a hold, so a hold ends them as a stop does. Where motors make up lost steps,
 /// the job that would go on pauses.
 CommandResult interrupt_alone(Intent intent, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    const bool is_own_move = jobs.activity().is<activity::OwnMoves>();
-    const bool is_in_pause = jobs.activity().pause() != nullptr;
-    if (intent == Intent::Hold && is_own_move && !is_in_pause) {
+    const bool corrects = is_correcting(jobs.activity());
+    if (intent == Intent::Hold && jobs.activity().is<activity::OwnMoves>() && !corrects) {
         return refuse(FaultCode::Busy,
                       "moves of axes on their own cannot be held and resumed; stop them: lockstep stop");
     }
     halt_axes(jobs.activity(), loop);
-    jobs.activity().bring_to_rest(is_own_move ? intent : Intent::Stop, loop.out);
+    jobs.activity().bring_to_rest(corrects ? intent : Intent::Stop, loop.out);
     return {};
 }
 
@@ -426,7 +425,7 @@ void hold_for_inputs(JobLifecycle& jobs, CoordinatorLoop& loop) {
     const bool goes_on = activity.in_motion() && activity.intent() == Intent::GoOn;
     if (!goes_on && !waits_for_input(activity)) { return; }
     loop.notice({CoordinatorNotice::Kind::HeldByInput, FaultCode::None, *input});
-    const bool cannot_be_held = activity.is<activity::OwnMoves>() && activity.pause() == nullptr;
+    const bool cannot_be_held = activity.is<activity::OwnMoves>() && !is_correcting(activity);
     (void)interrupt(cannot_be_held ? Intent::Stop : Intent::Hold, jobs, loop);
 }
 
@@ -435,8 +434,8 @@ void lose_client(Identity client, JobLifecycle& jobs, CoordinatorLoop& loop) {
     const MachineJob* const job = activity.job();
     if (job == nullptr || job->client != client) { return; }
     leave_to_itself(client, jobs);
-    const bool is_correcting = activity.is<activity::OwnMoves>() && activity.pause() != nullptr;
-    const bool goes_on = (activity.is<activity::OnPath>() || is_correcting) && activity.intent() == Intent::GoOn;
+    const bool is_of_job = activity.is<activity::OnPath>() || is_correcting(activity);
+    const bool goes_on = is_of_job && activity.intent() == Intent::GoOn;
     if (!goes_on && !waits_for_input(activity)) { return; }
     const bool is_held = loop.machine.unattended_job == UnattendedJob::IsHeld;
     const std::uint64_t number = job->number;

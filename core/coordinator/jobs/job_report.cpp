@@ -100,8 +100,8 @@ void report_job(const JobLifecycle& jobs, MachineState& state, const LoopView& l
     state.job_fault = count.fault();
     report_epoch(jobs.path(), state);
     const auto* const paused = activity.as<activity::Paused>();
-    const bool is_aside = !activity.is<activity::OwnMoves>();  // where motors make up lost steps, the job goes on
-    report_pause(paused != nullptr ? paused : is_aside ? activity.pause() : nullptr, state, loop);
+    const auto* const around = is_correcting(activity) ? nullptr : activity.pause();  // such a job goes on by itself
+    report_pause(paused != nullptr ? paused : around, state, loop);
     if (const MachineState* const inherited = activity.inherited()) {
         state.line = inherited->line;
         state.progress = inherited->progress;
