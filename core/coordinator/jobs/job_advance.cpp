@@ -157,7 +157,9 @@ void advance_job(JobLifecycle& jobs, CoordinatorLoop& loop) {
         return settle_alone(loop.kinematics.motors_of_axes(homing->sequence.axes()), nullptr, jobs, loop);
     }
     if (const auto* const moves = activity.as<activity::OwnMoves>()) {
-        return settle_alone(moves->targets.motors(), &moves->targets, jobs, loop);
+        // A job goes on from where all motors rested, also those that had lost no steps.
+        const MotorSet placed = is_correcting(activity) ? MotorSet::first(loop.axes.size()) : moves->targets.motors();
+        return settle_alone(placed, &moves->targets, jobs, loop);
     }
     if (!activity.is_jogging() || activity.as<activity::Jogging>()->jogs.none()) {
         settle_alone({}, nullptr, jobs, loop);
