@@ -57,6 +57,7 @@ public:
     void step(const StepEdge& step, const Reached& places) {
         pass(passed_);
         passed_ = places.first - kPlaceHair;
+        note_order_of(places);
         count_ += step.direction;
         if (left_ > 0 && count_ == next_) {
             next_ += orders_[now_].every;
@@ -97,14 +98,21 @@ public:
     }
 
 private:
-    /// Words before this place have been followed.
+    /// Notes the word behind which the step was certainly made, before the next word.
+    void note_order_of(const Reached& places) {
+        const auto next = std::ranges::upper_bound(orders_, places.first + kPlaceHair, {}, &Order::from);
+        if (next == orders_.begin() || (next != orders_.end() && places.last > next->from)) { return; }
+        stepped_ = static_cast<std::size_t>(next - orders_.begin()) - 1;
+    }
+    /// Words before this place have been followed, or no step was made between them and the next word.
     void pass(double place) {
         std::size_t due = now_;
         for (std::size_t k = due < orders_.size() ? due + 1 : 0; k < orders_.size() && orders_[k].from < place; ++k) {
             due = k;
         }
-        if (due == now_) { return; }
-        require(orders_[due].count == 0 && !is_on_,
+        const bool is_stepped = stepped_ == due;
+        if (due == now_ || (is_on_ && !is_stepped)) { return; }
+        require(!is_stepped || (orders_[due].count == 0 && !is_on_),
                 "the word for " + std::to_string(orders_[due].count) + " pulses was not followed");
         now_ = due;
         rest_ = 0;
@@ -116,10 +124,11 @@ private:
     static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
     std::span<const Order> orders_;
     std::int64_t count_;
-    std::size_t now_ = kNone;  // in orders_
-    std::int64_t next_ = 0;    // the place of its next pulse
-    std::int64_t left_ = 0;    // while it is on
-    std::int64_t rest_ = 0;    // when it ended last
+    std::size_t now_ = kNone;      // in orders_
+    std::size_t stepped_ = kNone;  // the newest one behind which a step was made
+    std::int64_t next_ = 0;        // the place of its next pulse
+    std::int64_t left_ = 0;        // while it is on
+    std::int64_t rest_ = 0;        // when it ended last
     Tick ended_;
     bool is_on_ = false;
     double passed_ = 0;  // certainly, before the last step: words may be followed a tick late

@@ -41,8 +41,8 @@ void check_slides(Bench& bench, const Counts& at) {
         const double mm = static_cast<double>(at[i] + bench.slipped(i)) / motor.steps_per_mm;
         const double is = bench.vm().device(i).plant().position_mm();
         // In place: as exactly as it was put there.
-        const double most =
-            in_place ? static_cast<double>(most_following_error(motor)) : searched + moved_in_clock_errors(bench, i);
+        const double most = in_place && !corrects(bench.machine()) ? static_cast<double>(most_following_error(motor))
+                                                                   : searched + moved_in_clock_errors(bench, i);
         if (std::abs(is - mm) * motor.steps_per_mm > most) {
             bench.object("place",
                          motor.name + " stands at " + std::to_string(is) + " mm instead of " + std::to_string(mm));

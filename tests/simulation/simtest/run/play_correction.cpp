@@ -42,14 +42,14 @@ std::optional<Tick> CorrectionPlayer::first_epoch_of(const JobRecord& job) {
     return std::nullopt;
 }
 
-double CorrectionPlayer::longest_seconds() const {
+double CorrectionPlayer::longest_seconds(double streamed_s) const {
     double longest = bench_.protocol_seconds();
     for (std::size_t m = 0; m < due_.size(); ++m) {
         const MotorConfig& motor = bench_.kinematics().motors()[m];
         const double mm = static_cast<double>(std::abs(due_[m])) / motor.steps_per_mm;
         longest = std::max(longest, bench_.protocol_seconds() + 2 * mm / motor.start_velocity_mm_s);
     }
-    return longest;
+    return longest + streamed_s;
 }
 
 void CorrectionPlayer::check(std::size_t motor, std::span<const StepEdge> steps) {
@@ -61,15 +61,15 @@ void CorrectionPlayer::check(std::size_t motor, std::span<const StepEdge> steps)
 }
 
 /// The answer to the client may come late, so the steps before the first epoch count, whenever it began.
-void CorrectionPlayer::play(JobRecord& job, Counts& at) {
+void CorrectionPlayer::play(JobRecord& job, Counts& at, double streamed_s) {
     if (std::ranges::all_of(due_, [](std::int64_t steps) { return steps == 0; })) { return; }
     const auto is_over = [&] {  // the program may begin with a pause
         return first_epoch_of(job) || bench_.watch().outcome() || bench_.watch().phase() == MachinePhase::Paused;
     };
-    (void)bench_.await(is_over, longest_seconds(), "a correction of lost steps");
+    (void)bench_.await(is_over, longest_seconds(streamed_s), "a correction of lost steps");
     const auto epoch = first_epoch_of(job);
     const bool is_undisturbed = !bench_.faulted() && !bench_.disturbed_since(job.began);
-    if (!epoch && (bench_.faulted() || bench_.watch().outcome())) { bench_.settle(longest_seconds()); }
+    if (!epoch && (bench_.faulted() || bench_.watch().outcome())) { bench_.settle(longest_seconds(streamed_s)); }
     JobRecord alone{.homing = true, .course = {}, .first_step = job.first_step, .began = job.began};
     alone.end_step = bench_.steps_made();
     for (std::size_t m = 0; m < at.size() && !bench_.over(); ++m) {

@@ -19,11 +19,11 @@ public:
     /// Call it when the job was accepted. Waits until the motors that must make up steps have done so, and records
     /// their steps as a job without a program. `at`: the positions of the motors, updated where a motor did not reach
     /// its place because of a fault. Changes nothing if no motor has to move.
-    void play(JobRecord& job, Counts& at);
+    void play(JobRecord& job, Counts& at, double streamed_s);
 
 private:
     std::optional<Tick> first_epoch_of(const JobRecord& job);
-    double longest_seconds() const;
+    double longest_seconds(double streamed_s) const;
     void check(std::size_t motor, std::span<const StepEdge> steps);
 
     Bench& bench_;

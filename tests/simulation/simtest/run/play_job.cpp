@@ -118,16 +118,18 @@ int most_tries(const Bench& bench) {
 }
 
 /// Axes that are homed in place are first put to their park by hand, but not those without a switch that home
-/// together with others by touch. A motor that is still homed objects with a Fault.
+/// together with others by touch. A motor that is still homed objects with a Fault. What it would not notice is left,
+/// but not where slides are pushed again and again: they would come to their limit switches.
 void put_to_park(Bench& bench) {
     bool moves = false;
     const MotorSet by_touch = homed_by_touch(bench);
+    const bool is_exact = corrects(bench.machine());
     for (const MotorIndex m : motor_indices(bench.kinematics().motors().size())) {
         const MotorConfig& motor = bench.kinematics().motors()[m];
         if (row_of(motor.homing.way).searches || by_touch.contains(m)) { continue; }
         const double off_mm = motor.homing.park_mm - bench.vm().device(m).plant().position_mm();
         const std::int64_t steps = std::llround(off_mm * motor.steps_per_mm);
-        if (std::abs(steps) <= most_following_error(motor)) { continue; }  // a homed motor would not notice
+        if (std::abs(steps) <= (is_exact ? 0 : most_following_error(motor))) { continue; }
         bench.move_by_hand(m, steps);
         moves = true;
     }
@@ -147,6 +149,17 @@ void play_homing_stop(Bench& bench, CommandKind kind, double seconds, JobRecord&
         bench.object("stop of a homing", answer_text(*reply));
     }
     (void)bench.await(ended, seconds, "the stop of a homing");
+}
+
+/// A device that was lost while its emergency stop was released has not told so yet.
+void reset(Bench& bench) {
+    const Reply* reply = bench.ask(CommandKind::Reset);
+    const bool was_lost = std::ranges::any_of(bench.recording().faults, &VirtualFault::is_of_device);
+    if (reply != nullptr && was_lost && is_refusal(*reply, FaultCode::EmergencyStopInput)) {
+        bench.wait(bench.input_seconds(kStopInput));
+        reply = bench.ask(CommandKind::Reset);
+    }
+    if (reply != nullptr && reply->status != ReplyStatus::Accepted) { bench.object("reset", answer_text(*reply)); }
 }
 
 }  // namespace
@@ -222,10 +235,7 @@ void make_ready(Bench& bench, Counts& at) {
             play_homing(bench, at);
         } else if (bench.faulted()) {
             if (bench.asks_in_fault() && !bench.has_standby()) { ask_in_fault(bench); }
-            const Reply* reply = bench.ask(CommandKind::Reset);
-            if (reply != nullptr && reply->status != ReplyStatus::Accepted) {
-                bench.object("reset", answer_text(*reply));
-            }
+            reset(bench);
         }
         (void)bench.await([&] { return in(MachinePhase::Idle); }, bench.protocol_seconds(), "becoming ready");
     }
@@ -282,14 +292,19 @@ bool JobPlayer::start() {
     if (reply == nullptr) { return false; }
     begun_ = reply->status == ReplyStatus::Accepted;
     if (!begun_) { refused("refusal", *reply); }
-    if (begun_) { correction.play(job_, at_); }
+    if (begun_) { correction.play(job_, at_, streamed_seconds()); }
     moving_since_ = bench_.vm().now();
     return !bench_.over();
 }
 
 /// An upper bound of the job's duration without interrupts. Each part may find the machine at rest.
 double JobPlayer::ample_seconds() const {
-    double seconds = 2 * job_.course.seconds + bench_.protocol_seconds() * static_cast<double>(1 + task_.parts.size());
+    return 2 * job_.course.seconds + bench_.protocol_seconds() + streamed_seconds();
+}
+
+/// How long the parts of a streamed program may take to come.
+double JobPlayer::streamed_seconds() const {
+    double seconds = bench_.protocol_seconds() * static_cast<double>(task_.parts.size());
     for (const SentPart& part : task_.parts) { seconds += part.after_s; }
     return seconds;
 }

@@ -17,6 +17,7 @@ private:
     bool start();
     bool is_at(const Counts& axes) const;
     double ample_seconds() const;
+    double streamed_seconds() const;
     void go_on();
     void interrupt(const Interrupt& interrupt);
     void hold(const Interrupt& interrupt);
