@@ -186,7 +186,7 @@ std::optional<FitFailure> FramePlanner::fit(PathFrame& frame, FrameCursor& behin
     note_begins(path_, frame.ticks, trail_, begins_);
     note_tail(frame, tail_, setup_, trail_, tail_begins_);
     const bool fits = room == nullptr || room->has_room(begins_, tail_begins_, frame.last);
-    return fits ? std::nullopt : std::optional(FitFailure{frame.ticks, true});
+    return fits ? std::nullopt : std::optional(FitFailure{frame.ticks, true, true});
 }
 
 std::expected<const PathFrame*, PathStuck> FramePlanner::next(FrameRoom* room) {
@@ -304,6 +304,7 @@ void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt
     const double from = failure.is_full ? 0 : at - static_cast<double>(kSlowTicks << std::min(attempt, 8));
     const double to = failure.is_full ? as_double(ticks) : at;
     if (!has_made_) { start_slower(slower); }
+    const Ticks enough = failure.is_crowded ? setup_.frame_ticks : Ticks{};
     double least = at_.w0;
     std::size_t last = at_.interval;
     const auto& passages = path_.passages();
@@ -318,7 +319,7 @@ void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt
         if (!is_fixed && (is_rest ? end : passage.begin) >= from) {
             window_.lower(last + 1, std::max(slower * passage.w1, least));
         }
-        if (failure.is_full && last > at_.interval) { window_.slow(last, slower); }
+        if (failure.is_full && last > at_.interval) { window_.slow(last, slower, enough); }
         if (passage.begin > to + kMargin_ticks) { break; }
     }
     window_.update(at_.interval + 1, std::min(last + 1, window_.end() - 1));

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kMost = PieceJoints::kMost;
 constexpr std::size_t kLeastParts = 4;  // of a piece that may be faster than the joints at its ends
+constexpr double kChordsInPart = 16;  // of a part, if outputs change along the path: a tail passes through a whole part
 
 /// The angle by which the piece's direction changes over `length`, rad.
 double direction_change(const Quadratic& piece, double length, const PathSetup& setup) {
@@ -45,7 +46,8 @@ std::size_t IntervalCut::parts_of(const JoinedPiece& piece, const Neighbours& be
     const double length = piece.shape.length - beside.from;
     const double by_length = length / kMaxInterval_mm;
     const double by_direction = direction_change(piece.shape, length, setup_) / kMaxDirectionChange;
-    const std::size_t parts = 1 + static_cast<std::size_t>(std::max(by_length, by_direction));
+    const double by_chords = setup_.has_outputs ? piece.shape.chords / kChordsInPart : 0;
+    const std::size_t parts = 1 + static_cast<std::size_t>(std::max({by_length, by_direction, by_chords}));
     if (parts >= kLeastParts || piece.shape.is_straight) { return std::max(parts, kLeastParts); }
     const double top = whole.cap(overrides_);
     const bool is_slow_at_ends = beside.begin.cap < top && std::min(beside.end.cap, piece.end_cap) < top;

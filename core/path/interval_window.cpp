@@ -88,9 +88,12 @@ void IntervalWindow::lower(std::size_t number, double cap) {
     }
 }
 
-void IntervalWindow::slow(std::size_t number, double slower) {
+void IntervalWindow::slow(std::size_t number, double slower, Ticks enough) {
     Interval& part = intervals_[number - first_];
     if (part.kind == IntervalKind::Straight) { part.top *= slower; }
+    if (part.kind != IntervalKind::Rest) { return; }
+    Ticks& rest = pieces_[part.piece - first_piece_].shape.rest;
+    if (rest < enough) { rest = std::min(enough, rounded_up(as_double(rest) / slower)); }
 }
 
 void IntervalWindow::drop_before(std::size_t number) {

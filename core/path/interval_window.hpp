@@ -36,8 +36,9 @@ public:
     void lower(std::size_t number, double cap);
     /// Computes `reach` again for the intervals [first, last].
     void update(std::size_t first, std::size_t last);
-    /// Slows a straight interval: multiplies the square of its greatest speed by `slower`.
-    void slow(std::size_t number, double slower);
+    /// Slows a straight interval: multiplies the square of its greatest speed by `slower`. A rest that is shorter than
+    /// `enough` lasts longer by as much.
+    void slow(std::size_t number, double slower, Ticks enough);
     /// Drops everything before an interval.
     void drop_before(std::size_t number);
     static constexpr std::size_t kMaxOpen = 16384;  // intervals that are not final; at more, half are made final

@@ -19,6 +19,7 @@ namespace lockstep {
 struct FitFailure {
     Ticks at;  // from the begin of the frame
     bool is_full = false;
+    bool is_crowded = false;  // it is full of what happens at the begins of its moves, not of pieces
 };
 
 class PieceFit {

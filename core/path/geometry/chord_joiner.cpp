@@ -73,6 +73,7 @@ void ChordJoiner::join(bool is_end, PathTrail& out) {
         piece.feed_mm_per_tick = points_[start_ + 1].settings.feed_mm_per_tick;
         piece.is_feed_fixed = points_[start_ + 1].settings.is_feed_fixed;
         piece.most_mm_per_tick = points_[start_ + 1].settings.most_mm_per_tick;
+        piece.chords = static_cast<std::uint32_t>(chords);
         start_at_ = best_end_;
         mark(chords, out);
         out.add(piece);

@@ -6,6 +6,7 @@
 // square of a small angle).
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -25,11 +26,12 @@ struct Quadratic {
     bool is_straight = true;      // bend is 0
     bool begins_at_rest = false;  // the machine rests at its begin, and there at whole steps
     bool ends_at_rest = false;
-    bool is_aside = false;  // the place on the geometry stays at its begin while motors move beside it
-    Ticks rest;             // duration if length is 0
-    std::size_t piece = 0;  // the number of the piece of geometry in its stream
-    double begin = 0;       // mm: rows may have several pieces for one piece of geometry, and this is where one begins
-    RowSet moving;          // those with a slope or a bend, as moving_rows() has found them
+    bool is_aside = false;     // the place on the geometry stays at its begin while motors move beside it
+    std::uint32_t chords = 1;  // moves that were joined to it
+    Ticks rest;                // duration if length is 0
+    std::size_t piece = 0;     // the number of the piece of geometry in its stream
+    double begin = 0;  // mm: rows may have several pieces for one piece of geometry, and this is where one begins
+    RowSet moving;     // those with a slope or a bend, as moving_rows() has found them
 
     /// The place on the geometry changes.
     bool moves_on() const { return length > 0 && !is_aside; }
