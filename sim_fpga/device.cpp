@@ -84,6 +84,21 @@ void SimulatedDevice::advance(Tick until) {
     publish();
 }
 
+Tick SimulatedDevice::next_step(Tick until) const {
+    if (phase_ == Phase::AtRest) { return until; }
+    if (phase_ == Phase::Waiting) {
+        const auto first = segments_.front();
+        return first ? std::clamp(first->start, now(), until) : until;
+    }
+    StepEngine ahead = engine_;
+    Tick step = std::min(until, now() + engine_.remaining());
+    ahead.run(step, [&](StepEdge edge) {
+        step = edge.tick;
+        return false;
+    });
+    return step;
+}
+
 void SimulatedDevice::take_enable() {
     const bool falls_off = channels_.is_host_silent() && channels_.setup().disable_at_silence;
     if (motor_.take_enable(falls_off, engine_.now()) && in_motion()) { finish(kStatusStoppedByHost); }

@@ -51,6 +51,8 @@ public:
 
     Tick now() const { return engine_.now(); }
     const OutputUnit& outputs() const { return channels_.outputs(); }
+    /// The first tick at which the motor may step, if no register and no input changes; at most `until`.
+    Tick next_step(Tick until) const;
     /// A frame or a tail is in progress.
     bool in_motion() const { return phase_ == Phase::Body || phase_ == Phase::Tail; }
     const Plant& plant() const { return plant_; }

@@ -95,11 +95,31 @@ void VirtualDevices::set_input(std::size_t input, bool closed, Tick now) {
 void VirtualDevices::follow_switches(Tick now) {
     if (switches_.none() && work_.none()) { return; }
     constexpr Ticks kLook{16};
-    for (Tick at = followed_ + kLook; may_change_ && at < now; at += kLook) { follow_switches_at(at); }
+    for (Device& device : devices_) { device.next_step.reset(); }
+    for (Tick at = followed_ + kLook; may_change_ && at < now; at += kLook) {
+        if (!may_have_stepped(at)) { continue; }
+        follow_switches_at(at);
+        note_next_steps(now);
+    }
     follow_switches_at(now);
     followed_ = now;
     const bool may_touch = work_.may_change_next();
     may_change_ = switches_.may_change_next() || may_touch;
+}
+
+/// Nothing changes between steps, unless a message arrives at a device on its link.
+bool VirtualDevices::may_have_stepped(Tick now) const {
+    for (const MotorIndex i : motor_indices(devices_.size())) {
+        const auto& next = devices_[i].next_step;
+        if (devices_[i].link || !next || clocks_.device(i, now) >= *next) { return true; }
+    }
+    return false;
+}
+
+void VirtualDevices::note_next_steps(Tick until) {
+    for (const MotorIndex i : motor_indices(devices_.size())) {
+        devices_[i].next_step = devices_[i].simulated->next_step(clocks_.device(i, until));
+    }
 }
 
 void VirtualDevices::follow_switches_at(Tick now) {

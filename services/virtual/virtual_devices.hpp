@@ -48,11 +48,14 @@ private:
         RegisterWindow window;
         std::unique_ptr<SimulatedDevice> simulated;
         std::optional<LateLink> link;
-        Tick now;  // the true time
+        Tick now;                       // the true time
+        std::optional<Tick> next_step;  // in its own time; nullopt: not known
         bool is_stopped = false;
         bool is_gone = false;
     };
     void deliver(MotorIndex motor, Tick now);
+    bool may_have_stepped(Tick now) const;
+    void note_next_steps(Tick until);
     void follow_switches_at(Tick now);
     void power_up(MotorIndex motor, const RegisterWindow& window, Plant plant, Tick now);
     void apply(const VirtualFault& fault, bool begins, Tick now);
