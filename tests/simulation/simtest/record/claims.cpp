@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/protocol/frame_room.hpp"
+
 namespace lockstep::simtest {
 
 void ClaimCheck::on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& node) {
@@ -20,7 +22,10 @@ void ClaimCheck::on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, Axis
     if (lacks_device) { unnoticed_[axis].reset(); }
     const bool may_not_know = has_yet_to_notice(axis);
     if (lacks_device || !has_device_[axis] || may_not_know) { return; }  // it reports where it last read the device
-    if (claimed + node.controller().zero_count() != pulses_[axis]) {
+    // Of these steps the device keeps as many as its ring holds.
+    const std::int64_t count = claimed + node.controller().zero_count();
+    if (std::exchange(made_up_[axis], {}).value_or(0) >= kDeviceCaptureEntries) { pulses_[axis] = count; }
+    if (count != pulses_[axis]) {
         object(axis, now,
                "it reports step " + std::to_string(claimed) + " after " + std::to_string(pulses_[axis]) + " pulses");
     }
@@ -66,7 +71,10 @@ void ClaimCheck::on_fault(Tick /*now*/, const VirtualFault& fault, bool begins) 
     if (!fault.is_of_device()) { return; }
     has_device_[fault.process] = !begins;
     if (begins) { unnoticed_[fault.process] = 0; }
-    if (fault.kind == VirtualFault::Kind::StopDevice && !begins) { unnoticed_[fault.process].reset(); }
+    if (fault.kind == VirtualFault::Kind::StopDevice && !begins) {
+        unnoticed_[fault.process].reset();
+        made_up_[fault.process] = 0;
+    }
     if (!begins && fault.kind != VirtualFault::Kind::StopDevice) {
         pulses_[fault.process] = 0;
         power_up_[fault.process] = vm_.device_time(fault.process);

@@ -25,6 +25,7 @@ public:
           power_up_(recording.motors.size(), Tick{std::numeric_limits<std::int64_t>::min()}),
           has_device_(recording.motors.size(), true),
           unnoticed_(recording.motors.size()),
+          made_up_(recording.motors.size()),
           encoder_(recording.motors.size()),
           moved_(recording.motors.size()),
           zero_(recording.motors.size()),
@@ -33,6 +34,7 @@ public:
     /// Pulses of a device that was replaced meanwhile can be reported late.
     void on_step(MotorIndex axis, StepEdge step) override {
         if (step.tick >= power_up_[axis]) { pulses_[axis] += step.direction; }
+        if (made_up_[axis]) { ++*made_up_[axis]; }
     }
     void on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
@@ -51,6 +53,7 @@ private:
     std::vector<bool> has_device_;      // the device works, and the axis uses it
     std::vector<std::optional<Slot>>
         unnoticed_;  // the states of an axis since it lost its device; none when it has noticed
+    std::vector<std::optional<std::size_t>> made_up_;  // steps that a device made at once when it was no longer stopped
     std::vector<std::int64_t> encoder_;
     std::vector<Tick> moved_;        // when the slide had last moved
     std::vector<double> zero_;       // steps from a motor's zero to the slide's, after a homing in place
