@@ -20,6 +20,7 @@ TIMEOUT_S = 300  # on a busy machine
 # Which tests of a program concern a library or a file, where not all do.
 TESTS = {
     "lai/line_download.v": "LineDownload.*",
+    "motors/motors_host.v": "TwoMotors.TakeAWordBetweenTwoTicks*",
     "two_axis_controller": "LaiHardware.*",
     "uart_receiver": "UartReceiver.*",
     "carrica_controller": "CarricaHardware.*",
