@@ -3,9 +3,10 @@
 
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "core/gcode/gcode.hpp"
+#include "core/gcode/gcode_stream.hpp"
 
 namespace lockstep {
 
@@ -17,18 +18,24 @@ public:
     /// Each line is one that the lines before it allow.
     std::vector<std::string> lines(std::size_t count) {
         std::vector<std::string> lines;
-        std::string text;
+        GcodeStream stream(setup_);
         for (std::size_t tries = 0; lines.size() < count && tries < 40 * count; ++tries) {
             std::string line = any_line();
-            const std::string longer = text + line + "\n";
-            if (!read_gcode(longer, setup_)) { continue; }
-            text = longer;
-            lines.push_back(std::move(line));
+            if (stream.take(line, static_cast<int>(lines.size()) + 1)) {
+                lines.push_back(std::move(line));
+            } else {
+                stream = stream_behind(lines);  // an error is a stream's end
+            }
         }
         return lines;
     }
 
 private:
+    GcodeStream stream_behind(const std::vector<std::string>& lines) const {
+        GcodeStream stream(setup_);
+        for (int number = 1; const std::string& line : lines) { (void)stream.take(line, number++); }
+        return stream;
+    }
     int pick(int least, int most) { return std::uniform_int_distribution(least, most)(random_); }
     std::string one_of(const std::vector<std::string>& texts) {
         return texts[static_cast<std::size_t>(pick(0, static_cast<int>(texts.size()) - 1))];
