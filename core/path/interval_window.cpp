@@ -1,6 +1,8 @@
 #include "core/path/interval_window.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 #include "core/path/piece_joints.hpp"
 
@@ -93,7 +95,8 @@ void IntervalWindow::slow(std::size_t number, double slower, Ticks enough) {
     if (part.kind == IntervalKind::Straight) { part.top *= slower; }
     if (part.kind != IntervalKind::Rest) { return; }
     Ticks& rest = pieces_[part.piece - first_piece_].shape.rest;
-    if (rest < enough) { rest = std::min(enough, rounded_up(as_double(rest) / slower)); }
+    const double longer = std::ceil(static_cast<double>(rest.value) / slower);
+    if (rest < enough) { rest = std::min(enough, Ticks{static_cast<std::int64_t>(longer)}); }
 }
 
 void IntervalWindow::drop_before(std::size_t number) {
