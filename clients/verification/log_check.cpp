@@ -165,13 +165,15 @@ void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace pl
     of->second.note_message(*found->second, message.incarnation, message.utime);
     of->second.records.pass(message.utime);
     check_place(message, of->second);
-    if (!make_follower_ && message.fault == 0 && analysis::is_countable(message.tick) &&
-        analysis::is_countable(message.position_steps)) {
-        found->second->check.take(SeenPosition{{message.tick},
-                                               message.position_steps,
-                                               message.incarnation,
-                                               message.homed != 0,
-                                               message.following_error_steps});
+    if (!make_follower_ && analysis::is_message_number(message.sequence) && analysis::is_countable(message.tick) &&
+        analysis::is_countable(message.position_steps) && analysis::is_countable(message.following_error_steps)) {
+        found->second->check.take(SeenPosition{.tick = {message.tick},
+                                               .steps = message.position_steps,
+                                               .incarnation = message.incarnation,
+                                               .sequence = message.sequence,
+                                               .is_homed = message.homed != 0,
+                                               .has_fault = message.fault != 0,
+                                               .following_error = message.following_error_steps});
     }
     found->second->last.is_moving = message.velocity_steps_per_s != 0;
     if (message.fault == static_cast<std::int32_t>(FaultCode::DeviceLost)) { found->second->check.device_lost(); }
@@ -204,7 +206,10 @@ void LogCheck::on_job(const analysis::RecordedJob& message, analysis::LogPlace p
     if (!Overrides::allows(message.feed_percent) || !Overrides::allows(message.rapid_percent)) {
         return on_damage(place, "a job with overrides that are out of range");
     }
-    if (Machine* of = machine(message.machine, place); of != nullptr) { of->set_config(message.config, findings_); }
+    if (Machine* of = machine(message.machine, place); of != nullptr) {
+        of->set_config(message.config, findings_);
+        of->homings.take(message);
+    }
     take_record(message, RecordKind::Job, place);
 }
 
@@ -312,9 +317,10 @@ bool LogCheck::Machine::has_ended(const std::string& axis) const {
 void LogCheck::Machine::finish(const std::string& name, const analysis::RecordEnd& end, bool is_damaged) {
     for (auto& [axis, of] : axes) { of->runs.finish(); }
     records.finish();
+    const bool lacks_jobs = is_damaged || end.lacks(RecordKind::Job, name, "");
     jobs.finish(
         {.at_rest = are_at_rest(),
-         .lacks_records = is_damaged || end.lacks(RecordKind::Job, name, ""),
+         .lacks_records = lacks_jobs,
          .lacks_any_run = is_damaged || std::ranges::any_of(end.missing,
                                                             [&](const analysis::MissingEnd& one) {
                                                                 return one.kind == RecordKind::Run &&
@@ -327,7 +333,9 @@ void LogCheck::Machine::finish(const std::string& name, const analysis::RecordEn
                          {.begins_late = of->is_late,
                           .ends_early = of->last.is_cut(),
                           .lacks_steps = is_damaged || end.lacks(RecordKind::Steps, name, axis),
-                          .lacks_runs = is_damaged || end.lacks(RecordKind::Run, name, axis)});
+                          .lacks_runs = is_damaged || end.lacks(RecordKind::Run, name, axis),
+                          .lacks_jobs = lacks_jobs || jobs.lacks_records()},
+                         homings);
         of->outputs.finish(!is_damaged && !of->is_late && !of->last.is_cut() && !end.may_lack_changes(name, axis));
     }
     touches.finish([&](const std::string& motor) {

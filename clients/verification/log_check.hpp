@@ -85,6 +85,7 @@ private:
         void set_config(const std::string& text, Findings& findings);
         void check_axes(Findings& findings) const;
         TouchCheck touches;
+        HomingJobs homings;
         JobCheck jobs;
         JobStream records;
         std::optional<MachineConfig> config;  // of its first job in the log

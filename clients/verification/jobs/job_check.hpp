@@ -53,6 +53,9 @@ public:
     /// Call once, at the end of the log.
     void finish(LogEnd end);
 
+    /// Records of jobs are missing between those that were taken.
+    bool lacks_records() const { return lacks_records_; }
+
     /// As JobProgress.
     std::string commanded(const Run& run, Tick tick) const { return progress_.commanded(run, tick); }
     /// As EpochProgress.

@@ -120,6 +120,18 @@ std::string text_of(const WaitingSteps& waiting) {
                        waiting.front().edge.tick.value);
 }
 
+void report(const std::vector<ZeroCheck::Change>& untold, AxisFindings& findings) {
+    for (const ZeroCheck::Change& moved : untold) {
+        if (!findings.going()) { return; }
+        if (!moved.why_unknown.empty()) {
+            findings.add_unknown(moved.text + "; " + moved.why_unknown);
+            continue;
+        }
+        findings.differ(fmt::format("{}; nothing on record moves its zero by {:+}", moved.text, moved.change), {},
+                        moved.span.to, moved.commanded);
+    }
+}
+
 }  // namespace
 
 AxisCheck::AxisCheck(std::string name, Findings& findings, AxisFindings::Commanded commanded,
@@ -129,7 +141,13 @@ AxisCheck::AxisCheck(std::string name, Findings& findings, AxisFindings::Command
 void AxisCheck::set_machine(const MachineConfig& machine) {
     clocks_.set_machine(machine);
     positions_.set_machine(machine);
+    zeros_.set_machine(machine, findings_.axis());
     slot_ = machine.slot_ticks();
+}
+
+void AxisCheck::take(const SeenPosition& position) {
+    zeros_.take(position);
+    if (!position.has_fault) { positions_.take(position); }
 }
 
 void AxisCheck::take(Run run) {
@@ -234,6 +252,9 @@ bool AxisCheck::begin_next_run() {
     } else if (const std::string why = contradiction_of(run, before); !why.empty()) {
         findings_.differ(why, &run, {}, run.start);
     }
+    if (run_.before() && !is_behind_gap && !jumps && !run_.has_follower()) {
+        zeros_.take(*run_.before(), run, [&] { return findings_.commanded(run, run.start); });
+    }
     if (findings_.going()) { run_.accept(); }
     return findings_.going();
 }
@@ -266,7 +287,7 @@ void AxisCheck::leave_steps() {
 
 // ---- The end -------------------------------------------------------------------------------------------------------
 
-void AxisCheck::finish(const HasEnded& has_ended, LogEdges edges) {
+void AxisCheck::finish(const HasEnded& has_ended, LogEdges edges, const HomingJobs& homings) {
     if (findings_.going()) { stream_.finish(); }
     settle(true);
     while (findings_.going() && run_ && beginning_.is_over(run_.run())) {
@@ -282,6 +303,7 @@ void AxisCheck::finish(const HasEnded& has_ended, LogEdges edges) {
     if (!edges.ends_early && !edges.lacks_steps) {
         differ_if(positions_.finish(), run_, findings_.last_tick(), findings_);
     }
+    report(zeros_.finish(homings, edges.lacks_jobs), findings_);
     if (findings_.going()) { gaps_.note(findings_); }
     if (!findings_.going()) { return; }
     beginning_.note(findings_);

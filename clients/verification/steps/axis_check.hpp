@@ -16,13 +16,14 @@
 #include <string>
 #include <utility>
 
+#include "clients/verification/positions/position_check.hpp"
+#include "clients/verification/positions/zero_check.hpp"
+#include "clients/verification/process_order.hpp"
 #include "clients/verification/steps/axis_findings.hpp"
 #include "clients/verification/steps/clock_check.hpp"
 #include "clients/verification/steps/compared_run.hpp"
 #include "clients/verification/steps/ended_process.hpp"
 #include "clients/verification/steps/log_beginning.hpp"
-#include "clients/verification/steps/position_check.hpp"
-#include "clients/verification/steps/process_order.hpp"
 #include "clients/verification/steps/record_gaps.hpp"
 #include "clients/verification/steps/waiting_steps.hpp"
 #include "services/record/reading/step_stream.hpp"
@@ -35,6 +36,7 @@ struct LogEdges {
     bool ends_early = false;   // it ends so soon after the newest steps and runs that related messages may be missing
     bool lacks_steps = false;  // by the marks, messages of steps after the last one are missing
     bool lacks_runs = false;   // likewise runs
+    bool lacks_jobs = false;   // records of the machine's jobs are missing
 };
 
 class AxisCheck final : public analysis::StepListener {
@@ -51,7 +53,7 @@ public:
     AxisCheck& operator=(const AxisCheck&) = delete;
 
     void take(analysis::StepBatch batch) { stream_.take(std::move(batch)); }
-    void take(const SeenPosition& position) { positions_.take(position); }
+    void take(const SeenPosition& position);
     /// The machine's file is known from its first job on.
     void set_machine(const MachineConfig& machine);
     /// Runs must come in the order of their numbers.
@@ -66,7 +68,7 @@ public:
     /// Call it before take() for a run that began before the log: its first steps may be missing.
     void began_before_log(const Run& run) { beginning_.take_before_log(run); }
     /// Call once, at the end of the log.
-    void finish(const HasEnded& has_ended, LogEdges edges);
+    void finish(const HasEnded& has_ended, LogEdges edges, const HomingJobs& homings = {});
 
     void on_batch(const analysis::StepBatch& batch) override;
     void on_break(const analysis::Break& what) override;
@@ -85,6 +87,7 @@ private:
     analysis::StepStream stream_{{this}};
     ClockCheck clocks_;
     PositionCheck positions_;
+    ZeroCheck zeros_;
     Ticks slot_{100'000};  // before the machine is known
     WaitingSteps waiting_;
     struct NextRun {

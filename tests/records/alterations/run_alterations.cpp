@@ -1,6 +1,7 @@
 // Runs (frames, tails and own moves) that are not those the axis made.
 #include "tests/records/alterations/alterations.hpp"
 #include "tests/records/alterations/places.hpp"
+#include "tests/records/record_times.hpp"
 
 namespace lockstep::records {
 namespace {
@@ -14,6 +15,9 @@ constexpr Expected kRunOtherLabel{kSaysBad | kSaysUnknown, kSaysDoubtful | kSays
                                   kSaysGood | kSaysBad | kSaysUnknown};
 constexpr Expected kRunOtherClock{kSaysBad | kSaysUnknown, kSaysDoubtful | kSaysUnknown | kSaysBad, kRunAnyMerge,
                                   kSaysGood | kSaysBad | kSaysUnknown};
+
+/// A replay does not know zeros.
+constexpr Expected kOtherZero{kSaysBad, kSaysBad, kSaysGood, kSaysGood};
 
 struct RunChange {
     const char* name;
@@ -79,6 +83,32 @@ void add_whole_runs(const std::string& motion, std::vector<Alteration>& all) {
          kRunOtherMotion, inserted, needs});
 }
 
+/// From the first own move on, axis X counts from a zero that is 20 steps away. Its runs, steps and positions agree.
+bool move_zero_before_own_move(Record& record) {
+    constexpr std::int64_t kSteps = 20;
+    const std::int64_t from_us = first_span(record, "own-move").begin_us;
+    const auto is_later = [=](const auto& message) { return message.axis == "X" && message.utime >= from_us; };
+    change_each<step_batch_t>(record, [&](step_batch_t& steps) {
+        steps.position_before -= is_later(steps) ? kSteps : 0;
+        return is_later(steps);
+    });
+    change_each<axis_position_t>(record, [&](axis_position_t& position) {
+        if (!is_later(position) || position.position_steps == 0) { return false; }
+        const auto steps = static_cast<double>(position.position_steps);
+        position.position_mm *= (steps - kSteps) / steps;
+        position.position_steps -= kSteps;
+        return true;
+    });
+    const auto move = [&](run_t& run) {
+        if (!is_later(run)) { return false; }
+        run.zero_count += kSteps;
+        run.start_count -= kSteps;
+        run.stop_count -= kSteps;
+        return true;
+    };
+    return change_each<run_t>(record, move) > 0;
+}
+
 }  // namespace
 
 std::vector<Alteration> run_alterations() {
@@ -100,6 +130,8 @@ std::vector<Alteration> run_alterations() {
                        return erase_at(r, places_of<run_t>(r, [](const run_t& run) { return run.axis == "X"; }).back());
                    },
                    kLost});
+    all.push_back({"zero_moved_before_an_own_move", move_zero_before_own_move, kOtherZero, Altered{.motion = true},
+                   Needs{.all_motions = true}});
     all.push_back({"run_retimed_otherwise",
                    [](Record& r) {
                        const auto retimed = places_of<run_t>(

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "clients/verification/process_order.hpp"
 #include "clients/verification/steps/log_beginning.hpp"
-#include "clients/verification/steps/process_order.hpp"
 
 namespace lockstep::verification {
 namespace {

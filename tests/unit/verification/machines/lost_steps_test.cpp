@@ -1,10 +1,14 @@
-// Steps that motors lose and make up at rest are in the record: verify finds it exact, and analyze tells how many.
+// Steps that motors lose and make up at rest are in the record: verify finds it exact, and analyze tells how many. A
+// record that does not show them is not exact.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <utility>
 
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/findings.hpp"
 #include "clients/verification/verification.hpp"
+#include "tests/unit/verification/altered_log.hpp"
 #include "tests/unit/verification/recorded_machine.hpp"
 
 namespace lockstep::verification {
@@ -45,6 +49,46 @@ TEST_F(RecordedLosses, VerifyExactly) {
     ASSERT_TRUE(found) << found.error();
     EXPECT_FALSE(found->difference) << to_text(*found);
     EXPECT_EQ(found->jobs, 2);
+}
+
+TEST_F(RecordedLosses, AreTheOnlyReasonForTheNewZero) {
+    test::AlteredLog altered(log());
+    ASSERT_GT(altered.change<axis_position_t>(
+                  "_POSITION",
+                  [](axis_position_t& position) { return std::exchange(position.following_error_steps, 0) != 0; }),
+              0);
+    const auto found = verify_log(altered.write(test::test_directory() / "altered.lcm"));
+    ASSERT_TRUE(found && found->difference);
+    EXPECT_THAT(found->difference->text, HasSubstr("nothing on record moves its zero by +20"));
+    const auto analyzed = analysis::analyze_log(test::test_directory() / "altered.lcm");
+    ASSERT_TRUE(analyzed);
+    EXPECT_EQ(analysis::worst_grade(analysis::findings(*analyzed)), analysis::Grade::Bad);
+}
+
+TEST_F(RecordedLosses, OfAnotherNumberLeaveTheNewZeroUnknown) {
+    test::AlteredLog altered(log());
+    ASSERT_GT(altered.change<axis_position_t>("_POSITION",
+                                              [](axis_position_t& position) {
+                                                  const bool has_lost = position.following_error_steps == -20;
+                                                  if (has_lost) { position.following_error_steps = -19; }
+                                                  return has_lost;
+                                              }),
+              0);
+    const auto found = verify_log(altered.write(test::test_directory() / "altered.lcm"));
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->verdict(), Verdict::Unknown) << to_text(*found);
+    EXPECT_THAT(found->unknown, testing::ElementsAre(HasSubstr("the positions show a correction by +19")));
+}
+
+TEST_F(RecordedLosses, WithoutTheirPositionsLeaveTheNewZeroUnknown) {
+    test::AlteredLog altered(log());
+    ASSERT_GT(altered.leave_out<axis_position_t>(
+                  "_POSITION", [](const axis_position_t& position) { return position.following_error_steps != 0; }),
+              0U);
+    const auto found = verify_log(altered.write(test::test_directory() / "altered.lcm"));
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->verdict(), Verdict::Unknown) << to_text(*found);
+    EXPECT_THAT(found->unknown, testing::ElementsAre(HasSubstr("the log lacks messages that may tell why")));
 }
 
 TEST_F(RecordedLosses, AreToldByTheAnalysis) {

@@ -10,19 +10,12 @@
 #include <optional>
 #include <string>
 
+#include "clients/verification/positions/seen_position.hpp"
 #include "core/machine.hpp"
 #include "core/units.hpp"
 #include "services/record/reading/step_stream.hpp"
 
 namespace lockstep::verification {
-
-struct SeenPosition {
-    Tick tick;  // machine time
-    std::int64_t steps = 0;
-    std::int64_t incarnation = 0;
-    bool is_homed = false;
-    std::int64_t following_error = 0;  // encoder minus count, in steps
-};
 
 class PositionCheck {
 public:

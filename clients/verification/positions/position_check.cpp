@@ -1,4 +1,4 @@
-#include "clients/verification/steps/position_check.hpp"
+#include "clients/verification/positions/position_check.hpp"
 
 #include <fmt/format.h>
 
