@@ -118,8 +118,9 @@ int most_tries(const Bench& bench) {
 }
 
 /// Axes that are homed in place are first put to their park by hand, but not those without a switch that home
-/// together with others by touch. A motor that is still homed objects with a Fault. What it would not notice is left,
-/// but not where slides are pushed again and again: they would come to their limit switches.
+/// together with others by touch. A motor that is still homed notices this, and the machine is in Fault. A distance
+/// that it would not notice is left, but not where slides are pushed again and again: they would reach their limit
+/// switches.
 void put_to_park(Bench& bench) {
     bool moves = false;
     const MotorSet by_touch = homed_by_touch(bench);
