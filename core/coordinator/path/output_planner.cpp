@@ -14,7 +14,7 @@ namespace {
 /// An output that follows the speed differs from it by at most so much of full scale, unless a frame has too many
 /// changes for it.
 constexpr double kTolerance = 0x1p-12;
-/// It changes evenly from one event to the next.
+/// It changes evenly from one event that concerns it to the next.
 constexpr double kRoughest = 1;
 
 RampAnalog ramp_of(const OutputConfig& output, double value, double slope) {
@@ -63,17 +63,15 @@ public:
     /// `tolerance`: where the output follows the speed. At events it is kTolerance.
     void list(double tolerance) {
         ProgramDevices last;
+        std::optional<Wanted> wanted;
         part_.each_time([&](double from, double to, const ProgramDevices& devices) {
             last = devices;
-            is_event_ = true;
-            const double share = share_of(output_, devices);
-            if (!follows_speed(output_, devices)) { return want({from, to, share, share}, kTolerance); }
-            if (tolerance < kRoughest) {
-                each_speed(from, to, share, [&](const EvenTime& time) { want(time, tolerance); });
-            } else if (const auto whole = even(from, to, share)) {
-                want(*whole, tolerance);
-            }
+            const Wanted next{from, to, share_of(output_, devices), follows_speed(output_, devices)};
+            if (tolerance >= kRoughest && wanted && wanted->is_like(next)) { return void(wanted->to = to); }
+            if (wanted) { list(*wanted, tolerance); }
+            wanted = next;
         });
+        list(*wanted, tolerance);
         const auto end = static_cast<double>(part_.ticks.value);
         const bool is_on = ramp_.slope != 0 || ramp_.at(end) != 0;
         if (part_.ends_at_rest && follows_speed(output_, last) && is_on) { change(part_.ticks, {}); }
@@ -81,6 +79,25 @@ public:
     }
 
 private:
+    /// The time between two events. If it is listed as roughly as possible, only those count that concern the output.
+    struct Wanted {
+        double from = 0;
+        double to = 0;
+        double share = 0;
+        bool follows = false;  // the speed
+        bool is_like(const Wanted& next) const { return share == next.share && follows == next.follows; }
+    };
+    void list(const Wanted& wanted, double tolerance) {
+        const auto [from, to, share, follows] = wanted;
+        is_event_ = true;
+        if (!follows) { return want({from, to, share, share}, kTolerance); }
+        if (tolerance < kRoughest) {
+            each_speed(from, to, share, [&](const EvenTime& time) { want(time, tolerance); });
+        } else if (const auto whole = even(from, to, share)) {
+            want(*whole, tolerance);
+        }
+    }
+
     /// Some time in which the wanted value changes evenly.
     struct EvenTime {
         double from = 0;
