@@ -186,7 +186,7 @@ std::optional<FitFailure> FramePlanner::fit(PathFrame& frame, FrameCursor& behin
     note_begins(path_, frame.ticks, trail_, begins_);
     note_tail(frame, tail_, setup_, trail_, tail_begins_);
     const bool fits = room == nullptr || room->has_room(begins_, tail_begins_, frame.last);
-    return fits ? std::nullopt : std::optional(FitFailure{frame.ticks, true, true});
+    return fits ? std::nullopt : std::optional(FitFailure{.at = frame.ticks, .is_full = true, .is_crowded = true});
 }
 
 std::expected<const PathFrame*, PathStuck> FramePlanner::next(FrameRoom* room) {

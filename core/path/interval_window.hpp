@@ -36,8 +36,8 @@ public:
     void lower(std::size_t number, double cap);
     /// Computes `reach` again for the intervals [first, last].
     void update(std::size_t first, std::size_t last);
-    /// Slows a straight interval: multiplies the square of its greatest speed by `slower`. A rest that is shorter than
-    /// `enough` lasts longer by as much.
+    /// Slows a straight interval: multiplies the square of its greatest speed by `slower`. A rest is divided by it,
+    /// up to `enough`.
     void slow(std::size_t number, double slower, Ticks enough);
     /// Drops everything before an interval.
     void drop_before(std::size_t number);

@@ -22,7 +22,7 @@ void ClaimCheck::on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, Axis
     if (lacks_device) { unnoticed_[axis].reset(); }
     const bool may_not_know = has_yet_to_notice(axis);
     if (lacks_device || !has_device_[axis] || may_not_know) { return; }  // it reports where it last read the device
-    // Of these steps the device keeps as many as its ring holds.
+    // Of the steps that a device makes up at once, its ring keeps only as many as it holds.
     const std::int64_t count = claimed + node.controller().zero_count();
     if (std::exchange(made_up_[axis], {}).value_or(0) >= kDeviceCaptureEntries) { pulses_[axis] = count; }
     if (count != pulses_[axis]) {

@@ -18,7 +18,8 @@ public:
 
     /// Call it when the job was accepted. Waits until the motors that must make up steps have done so, and records
     /// their steps as a job without a program. `at`: the positions of the motors, updated where a motor did not reach
-    /// its place because of a fault. Changes nothing if no motor has to move.
+    /// its place because of a fault. `streamed_s`: how long the program may take to come. Changes nothing if no motor
+    /// has to move.
     void play(JobRecord& job, Counts& at, double streamed_s);
 
 private:
