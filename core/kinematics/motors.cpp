@@ -271,20 +271,18 @@ void correct_screw(MotorConfig& motor, const MotorBlock* block) {
     }
 }
 
-bool corrects_screws(const MachineConfig& machine) {
-    bool has_screws = false;
-    each_motor(machine, [&](const MotorAt& at) { has_screws = has_screws || !screw_of(at.config, at.block).empty(); });
-    return has_screws;
-}
-
-/// After homing, the motors have to be where a place of the axes in whole steps puts them. Otherwise motors with
-/// different screws may round to steps to which no such place belongs.
-MachineConfig with_whole_parks(MachineConfig machine) {
-    for (AxisConfig& axis : machine.axes) {
-        if (!(axis.steps_per_mm > 0)) { continue; }
-        axis.homing.park_mm = to_mm(axis, static_cast<double>(to_steps(axis, axis.homing.park_mm)));
+/// After homing, the motors have to be where a place of the axes in whole steps puts them. Motors with different steps
+/// or screws may otherwise round to steps to which no such place belongs. Axes without steps: nothing changes.
+void park_on_steps_of_axes(std::vector<MotorConfig>& motors, const MachineConfig& machine) {
+    std::vector<std::int64_t> parks;
+    for (const AxisConfig& axis : machine.axes) {
+        if (!(axis.steps_per_mm > 0)) { return; }
+        parks.push_back(to_steps(axis, axis.homing.park_mm));
     }
-    return machine;
+    const MotorMap map = step_map_of(machine);
+    for (const MotorIndex m : motor_indices(motors.size())) {
+        motors[m].homing.park_mm = to_mm(motors[m], std::round(map.place(m, parks)));
+    }
 }
 
 void set_share(LinearMap& map, std::size_t row, const MachineConfig& machine, const std::string& axis, double share) {
@@ -402,8 +400,7 @@ DeltaMap::Reach reach_of(const MachineConfig& machine, const MachineDelta& delta
                            tool_at(machine, delta, [](const AxisConfig& a) { return a.position_max_mm; }));
 }
 
-std::vector<MotorConfig> moving_motors_of(const MachineConfig& given) {
-    const MachineConfig machine = corrects_screws(given) ? with_whole_parks(given) : given;
+std::vector<MotorConfig> moving_motors_of(const MachineConfig& machine) {
     const LinearMap map = motor_map_of(machine);
     const auto delta = delta_of(machine);
     std::vector<MotorConfig> motors;
@@ -421,6 +418,7 @@ std::vector<MotorConfig> moving_motors_of(const MachineConfig& given) {
         take_up_backlash(motor, backlash_of(axis, block), share_of_points(map, m, a));
         motors.push_back(std::move(motor));
     });
+    park_on_steps_of_axes(motors, machine);
     return motors;
 }
 

@@ -53,6 +53,21 @@ TEST(PlaceOfTheAxes, RoundsToTheMotorsAtEveryRest) {
     }
 }
 
+/// A park in mm may be just between two steps of one motor, and its axis's nearest place on the other side.
+TEST(MotorsWithDifferentSteps, ParkWhereAPlaceOfTheirAxisPutsThem) {
+    for (int n = 0; n < 20'000; ++n) {
+        MachineConfig machine = three_motors();
+        machine.axes[0].motors[0].steps_per_mm = 71.3;
+        machine.axes[0].homing.park_mm = n * 0.0077;
+        const Kinematics kinematics(machine);
+        MotorCounts parked;
+        for (const MotorConfig& motor : kinematics.motors()) {
+            parked.steps.append(to_steps(motor, motor.homing.park_mm));
+        }
+        EXPECT_FALSE(kinematics.astray(parked)) << machine.axes[0].homing.park_mm;
+    }
+}
+
 TEST(PlaceOfTheAxes, RoundsToAnyPlaceOfTwoBelts) {
     const Kinematics kinematics(two_belts());
     std::mt19937 random(1);

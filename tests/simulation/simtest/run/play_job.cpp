@@ -73,34 +73,23 @@ void ask_in_fault(Bench& bench) {
     if (moves || reply->status != ReplyStatus::Refused) { bench.object("refusal", "in Fault: " + answer_text(*reply)); }
 }
 
-bool has_screws(const MachineConfig& machine) {
-    return std::ranges::any_of(machine.axes, [](const AxisConfig& axis) {
-        return !axis.screw.empty() ||
-               std::ranges::any_of(axis.motors, [](const MotorBlock& motor) { return !motor.screw.empty(); });
-    });
-}
-
 /// Motors that are moved by axes that home by touch.
 MotorSet homed_by_touch(const Bench& bench) {
     return bench.kinematics().motors_of_axes(
         axes_homed_by_touch(AxisSet::first(bench.machine().axes.size()), bench.machine()));
 }
 
-/// The park position, on a whole step of the axis if motors correct screws or the axis homes by touch. A motor that
-/// lost its coordinator on the way, with its zero set, rests where it reports; check_slides() compares that with the
-/// true place of the slide.
+/// The park position, on a whole step of each axis. A motor that lost its coordinator on the way, with its zero set,
+/// rests where it reports; check_slides() compares that with the true place of the slide.
 std::int64_t place_after_homing(const Bench& bench, MotorIndex motor, JobOutcome outcome) {
     const AxisState& state = bench.watch().motors()[motor];
     if (outcome != JobOutcome::Done && state.homed && state.at_rest) {
         return state.position.count() - state.play_steps;
     }
-    const MotorConfig& config = bench.kinematics().motors()[motor];
-    const bool is_by_touch = homed_by_touch(bench).contains(motor);
-    if (!bench.map().is_curved(motor) && !is_by_touch) { return nearest_step(config, config.homing.park_mm); }
+    if (bench.kinematics().motors()[motor].is_board()) { return 0; }
     Places park;
     for (const AxisConfig& axis : bench.machine().axes) {
-        const double steps = axis.homing.park_mm * axis.steps_per_mm;
-        park.push_back(is_by_touch || has_screws(bench.machine()) ? std::round(steps) : steps);
+        park.push_back(std::round(axis.homing.park_mm * axis.steps_per_mm));
     }
     return std::llround(bench.map().place(motor, park));
 }
