@@ -289,7 +289,8 @@ AxisState AxisController::state(const AxisLoop& loop, Ticks clock_error) const {
             .outputs = device.outputs,
             .pulses_left = device.pulses_left,
             .analog = device.analog,
-            .touch = following_.touch()};
+            .touch = following_.touch(),
+            .ceased = following_.has_ceased()};
 }
 
 }  // namespace lockstep

@@ -84,9 +84,14 @@ inline constexpr std::size_t kMaxTouchInputs = 8;  // of one probe
 struct TouchInputs {
     StaticVector<TouchInput, kMaxTouchInputs> any_of;  // empty: the epoch ends at no touch
     bool opens = false;                                // they touch when they open
+    bool ceases = false;  // there is one, and the pulses of its device cease at the touch: no other motor moves
     bool operator==(const TouchInputs&) const = default;
 
     bool empty() const { return any_of.empty(); }
+    /// The input at whose touch the motor's pulses cease; nullopt if they do not.
+    std::optional<TouchInput> ceasing(MotorIndex motor) const {
+        return ceases && !empty() && any_of.front().motor == motor ? std::optional(any_of.front()) : std::nullopt;
+    }
     /// `closed`: as in TouchInput.
     bool is_touched(const TouchInput& input, std::uint32_t closed) const { return input.is_closed(closed) != opens; }
 };
@@ -167,6 +172,7 @@ struct AxisState {
     std::uint32_t pulses_left = 0;           // of the newest places at its device: so many were not made, so far
     AnalogLevels analog{};                   // what the analog outputs of its device show
     std::optional<EpochTouch> touch;         // of the newest epoch, if it ends at an input of this device
+    bool ceased = false;                     // and its pulses ceased at that touch, before its frames ended
     bool operator==(const AxisState&) const = default;
 
     MotorIndex motor() const { return MotorIndex{axis}; }

@@ -334,14 +334,20 @@ DeviceDriver::Result DeviceDriver::apply_one(const device::BeginRun& order) {
     }
     window_.store(kArmed, 0);
     window_.store(kVeto, kNoVeto);
-    window_.store(kTrigger, trigger_word(order.trigger));
+    window_.store(kTrigger, trigger_word(order));
     window_.store(kRunRequest, order.run);
     return {};
 }
 
-std::uint64_t DeviceDriver::trigger_word(Trigger trigger) const {
-    if (trigger == Trigger::None) { return 0; }
-    return kTriggerInputs.word(window_.load(kHomeInputs)) | (trigger == Trigger::HomeOpens ? kTriggerOpens : 0);
+std::uint64_t DeviceDriver::trigger_word(const device::BeginRun& order) const {
+    switch (order.trigger) {
+        case Trigger::None: return 0;
+        case Trigger::HomeCloses: return kTriggerInputs.word(window_.load(kHomeInputs));
+        case Trigger::HomeOpens: return kTriggerInputs.word(window_.load(kHomeInputs)) | kTriggerOpens;
+        case Trigger::InputCloses: return kTriggerInputs.word(1ULL << order.channel);
+        case Trigger::InputOpens: return kTriggerInputs.word(1ULL << order.channel) | kTriggerOpens;
+    }
+    return 0;
 }
 
 DeviceDriver::Result DeviceDriver::apply_one(const device::LoadFrame& order) {

@@ -71,7 +71,7 @@ private:
     std::expected<std::uint64_t, std::string> changes() const;
     std::expected<std::uint64_t, std::string> events() const;
     DeviceStatus read_words() const;
-    std::uint64_t trigger_word(Trigger trigger) const;
+    std::uint64_t trigger_word(const device::BeginRun& order) const;
     std::int64_t signed_word(std::size_t offset) const { return static_cast<std::int64_t>(window_.load(offset)); }
 
     RegisterWindow window_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/hardware/device_abilities.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/protocol/frame_room.hpp"
 
 namespace lockstep::verification {
@@ -65,6 +67,7 @@ std::string EpochCheck::out_of_order(const Progress& axis, const Run& run) const
 std::optional<Shortfall> EpochCheck::shortfall_of(MotorIndex i) {
     const Progress& axis = axes_[i];
     const std::string frame = fmt::format("frame {}", axis.ran);
+    if (ceased(i)) { return std::nullopt; }
     if (axis.cut) { return Shortfall{Shortfall::Kind::Cut, i, "was stopped early in " + frame}; }
     if (axis.ran == 0 || axis.in_tail) { return std::nullopt; }
     const Frame* last = replay_.frame(axis.ran);
@@ -117,8 +120,28 @@ bool EpochCheck::assume_complete(MotorIndex motor) {
 
 EpochEnd EpochCheck::end() const {
     std::vector<AxisEnd> ends;
-    for (const Progress& axis : axes_) { ends.push_back({axis.ran, axis.at}); }
+    for (const MotorIndex m : motor_indices(axes_.size())) { ends.push_back({axes_[m].ran, axes_[m].at, ceased(m)}); }
     return replay_.evaluate(ends);
+}
+
+bool EpochCheck::ceased(MotorIndex motor) const { return axes_[motor].cut && replay_.touch().ceasing(motor); }
+
+/// A motor whose frames ended before its input had followed the pin rests at their end.
+std::optional<std::string> EpochCheck::rests_off_touch(Tick touched) const {
+    if (!replay_.touch().ceases) { return std::nullopt; }
+    const TouchInput& input = replay_.touch().any_of.front();
+    const MotorConfig motor = motors_of(machine_)[input.motor];
+    const Ticks debounce = setup_of(machine_, motor).debounce[input.channel];
+    constexpr std::int64_t kRates = 1000;  // the clocks' rates differ by less than a thousandth
+    const Ticks within = known_within() + known_within() + Ticks{1 + debounce.value / kRates};
+    const Ticks off = estimates_clock(machine_, input.motor) ? within : Ticks{1};
+    const auto count_at = [&](Tick tick) { return replay_.positions_at(tick, ran())[input.motor].count(); };
+    const std::int64_t before = count_at(touched + debounce - off);
+    const std::int64_t behind = count_at(touched + debounce + off);
+    const std::int64_t rests = axes_[input.motor].at.count();
+    if (rests >= std::min(before, behind) && rests <= std::max(before, behind)) { return std::nullopt; }
+    return fmt::format("motor {} rests at step {}; its pulses had to cease at step {}", motor.name, rests,
+                       count_at(touched + debounce));
 }
 
 FrameNumber EpochCheck::ran() const { return std::ranges::max_element(axes_, {}, &Progress::ran)->ran; }

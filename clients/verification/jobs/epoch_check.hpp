@@ -54,6 +54,9 @@ public:
     EpochEnd end() const;
     /// The highest frame that an axis ran.
     FrameNumber ran() const;
+    /// In an epoch in which a motor's pulses cease at the touch: why it does not rest where they had to; nullopt if it
+    /// does, and in all other epochs. `touched`: the tick of the touch.
+    std::optional<std::string> rests_off_touch(Tick touched) const;
 
     /// The runs that the plan allows an axis after its newest run. Each course has further frames, or none, and then
     /// the tail of the last frame, or the path's end if it has no tail. Before its process ended, an axis may have run
@@ -74,6 +77,8 @@ private:
     Ticks known_within() const { return machine_.estimates_clocks() ? machine_.clock_error_limit() : Ticks{}; }
     std::string out_of_order(const Progress& axis, const Run& run) const;
     Shortfall silent(MotorIndex motor) const;
+    /// Its pulses ceased at the touch of the epoch.
+    bool ceased(MotorIndex motor) const;
     MotorIndex least_far() const;
     Position rests_at(MotorIndex motor, const Frame& frame) const;
 

@@ -61,7 +61,9 @@ EpochEnd EpochReplay::evaluate(std::span<const AxisEnd> axes) const {
     constexpr Slot kLong = std::numeric_limits<std::int32_t>::max();  // after everything
     std::vector<AxisView> views;
     for (const AxisEnd& axis : axes) {
-        views.push_back({AxisState{.stamp = kLong, .epoch = epoch(), .ran = axis.ran, .position = axis.at}, kLong});
+        AxisState state{.stamp = kLong, .epoch = epoch(), .ran = axis.ran, .position = axis.at, .ceased = axis.ceased};
+        if (axis.ceased) { state.touch = EpochTouch{.epoch = epoch()}; }
+        views.push_back({std::move(state), kLong});
     }
     return *runner_.evaluate(kLong, views);  // all axes are at rest: there is a result
 }

@@ -23,6 +23,7 @@ struct EpochStart {
 struct AxisEnd {
     FrameNumber ran = 0;
     Position at;
+    bool ceased = false;  // its pulses ceased at the touch of the epoch
 };
 
 class EpochReplay {

@@ -183,6 +183,9 @@ void JobProgress::take_probe(const RecordedJob& record) {
     job_->is_probed = true;
     if (epoch_.is(static_cast<Epoch>(record.epoch))) { touches_.take(touch_of(record)); }
     if (!epoch_ || record.outcome != "touched") { return; }
+    if (const auto off = epoch_->rests_off_touch({record.start_tick})) {
+        return differ(fmt::format("{}: behind the touch at tick {} {}", job_->label, record.start_tick, *off));
+    }
     const JobReplay& replay = *job_->replay;
     const MotorPositions motors = job_->slides_of(epoch_->replay().positions_at({record.start_tick}, epoch_->ran()));
     for (AxisIndex i; i < std::min(replay.machine().axes.size(), record.start_count.size()); ++i) {

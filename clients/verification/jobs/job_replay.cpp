@@ -49,7 +49,9 @@ std::optional<EpochStart> JobReplay::next(const std::vector<std::int64_t>& plays
 TouchInputs JobReplay::touch_of(const Leg& leg) const {
     const Block* const before = leg.first > 0 ? program_->block(leg.first - 1) : nullptr;
     const auto* const probe = before != nullptr ? std::get_if<Probe>(&before->action) : nullptr;
-    return probe != nullptr ? planner_.touch_inputs(*probe) : TouchInputs{};
+    if (probe == nullptr) { return {}; }
+    const auto axes = planner_.axes_of(program_->axes()).value();
+    return planner_.touch_inputs(*probe, program_->block(leg.first), axes, leg.from);
 }
 
 std::uint32_t JobReplay::moves_from() const {

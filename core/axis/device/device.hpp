@@ -27,9 +27,9 @@ struct DeviceStatus {
     bool limit_max = false;
     bool home = false;
     bool stopped_by_limit = false;    // this run ended at a limit switch
-    bool stopped_by_trigger = false;  // this run ended by the home input, as asked
+    bool stopped_by_trigger = false;  // this run ended by its trigger
     bool stopped_by_host = false;     // this run ended by StopNow
-    std::int64_t trigger_count = 0;   // the device's count when the home input triggered
+    std::int64_t trigger_count = 0;   // the device's count when the trigger ended a run
     bool bad_segment = false;         // a late or discontinuous segment was refused, and the run ended
     bool capture_overflow = false;    // steps were made, but their times could not be kept
     std::int64_t encoder_count = 0;
@@ -53,16 +53,17 @@ struct InputEdge {
     bool operator==(const InputEdge&) const = default;
 };
 
-enum class Trigger : std::uint8_t { None, HomeCloses, HomeOpens };
+enum class Trigger : std::uint8_t { None, HomeCloses, HomeOpens, InputCloses, InputOpens };
 
 namespace device {
 
 /// A run is a sequence of frames from rest to rest. It forgets what was loaded, armed or vetoed before.
-/// `trigger` ends it at the first tick on which the home input has that level.
+/// `trigger` ends it at the first tick on which the home input, or the named one, has that level.
 struct BeginRun {
     std::uint64_t run = 0;
     Trigger trigger = Trigger::None;
-    bool own = false;  // a move of the axis's own: its durations are ticks of the device, not of machine time
+    bool own = false;          // a move of the axis's own: its durations are ticks of the device, not of machine time
+    std::uint8_t channel = 0;  // of the input that InputCloses and InputOpens name
 };
 /// Loads one frame's body and tail after those loaded before. Positions are the device's own.
 struct LoadFrame {

@@ -46,7 +46,7 @@ void EpochFollowing::take(const Frame& frame, std::optional<Position> rest, Axis
     if (fault != FaultCode::None) { return refuse(frame, fault, loop); }
     if (!is_open() || follower_.held() == held) { return; }
     last_refusal_ = FaultCode::None;
-    if (held == 0) { loop.begin_run(Trigger::None, false); }
+    if (held == 0) { loop.begin_run(follower_.touch().ceasing(motor_), follower_.touch().opens); }
     lockstep::check(loop.device.reserve(room_for(frame.axes[motor_])), "there is room for the frame");
     loop.load(check_found(follower_.find(follower_.held()), "the follower keeps the newest frame it holds"));
 }
@@ -60,6 +60,7 @@ void EpochFollowing::begin(Epoch epoch, AxisLoop& loop) {
     recorder_.begin();
     ran_ = 0;
     touch_.reset();
+    has_ceased_ = false;
     loop.notice({AxisNotice::Kind::EpochBegun, FaultCode::None, epoch});
     const DeviceStatus& device = loop.device.status();
     if (const auto channel = touching(follower_.touch(), motor_, device.inputs)) { end_at(device.now, *channel, loop); }
@@ -104,14 +105,18 @@ void EpochFollowing::veto(AxisLoop& loop) {
 
 void EpochFollowing::observe(AxisLoop& loop) {
     const DeviceStatus& device = loop.device.status();
+    has_ceased_ = device.finished && device.stopped_by_trigger;
+    if (has_ceased_) { follower_.veto_for_touch(loop.next_state); }
     if (is_left_behind(device)) { veto(loop); }
     record(device, loop);
 }
 
 /// The device has begun a tail, perhaps while this process stalled after it had decided on a frame. Others may be
-/// running that frame. From here on the state of this axis must be no evidence for them.
+/// running that frame. From here on the state of this axis must be no evidence for them. If its pulses ceased at a
+/// touch, no other motor moves.
 bool EpochFollowing::is_left_behind(const DeviceStatus& device) const {
-    return device.in_tail || (device.finished && !follower_.is_complete(device.frame));
+    const bool has_ended = device.finished && !has_ceased_;
+    return device.in_tail || (has_ended && !follower_.is_complete(device.frame));
 }
 
 void EpochFollowing::record(const DeviceStatus& device, AxisLoop& loop) {

@@ -35,6 +35,8 @@ public:
     /// The first touch of an input of this device at which the newest epoch ends. An input with a longer debounce may
     /// report an earlier touch later.
     const std::optional<EpochTouch>& touch() const { return touch_; }
+    /// The device has ended the newest epoch at a touch, before its frames ended.
+    bool has_ceased() const { return has_ceased_; }
 
     /// Makes the checks that are due.
     void check(AxisLoop& loop);
@@ -57,6 +59,7 @@ private:
     SetpointFollower follower_;
     RunRecorder recorder_;
     std::optional<EpochTouch> touch_;
+    bool has_ceased_ = false;
     Tick rested_;  // when the device was seen to have ended the newest epoch
     FrameNumber ran_ = 0;
     std::uint64_t refused_frames_ = 0;

@@ -143,7 +143,7 @@ void OwnMoves::start_jog(const LocalMove& move, Tick until, AxisLoop& loop) {
     run_.emplace(move, std::move(frames), count + move.steps, 0, ahead_);
     run_->allow_until(std::min(until, loop.now + jog_hold_));
     between_steps_.reset();
-    loop.begin_run(Trigger::None, true);
+    loop.begin_own_run(Trigger::None);
     feed(loop);
 }
 
@@ -178,7 +178,7 @@ void OwnMoves::start(const LocalMove& move, int tries, AxisLoop& loop) {
     const Position from = rest_position(count - loop.condition.position.zero_count(), move.steps < 0);
     run_.emplace(move, frames_of(move, from, start), count + move.steps, tries, ahead_);
     between_steps_.reset();
-    loop.begin_run(move.trigger, true);
+    loop.begin_own_run(move.trigger);
     feed(loop);
 }
 

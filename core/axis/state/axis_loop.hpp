@@ -2,6 +2,7 @@
 // outputs.
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "core/axis/device/device_view.hpp"
@@ -47,8 +48,17 @@ struct AxisLoop {
         condition.orders.end(why);
     }
 
-    void begin_run(Trigger trigger, bool own) {
-        out.orders.emplace_back(device::BeginRun{device.begin_run(), trigger, own});
+    void begin_own_run(Trigger trigger) {
+        out.orders.emplace_back(device::BeginRun{.run = device.begin_run(), .trigger = trigger, .own = true});
+    }
+    /// A run of frames. Its pulses cease at a touch of this input of the device.
+    void begin_run(const std::optional<TouchInput>& input, bool opens) {
+        device::BeginRun begin{.run = device.begin_run()};
+        if (input) {
+            begin.trigger = opens ? Trigger::InputOpens : Trigger::InputCloses;
+            begin.channel = input->channel;
+        }
+        out.orders.emplace_back(begin);
     }
     void load(const HeldFrame& frame) {
         AxisTrack track = frame.track;

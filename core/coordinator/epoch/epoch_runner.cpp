@@ -16,6 +16,23 @@ ProgramDevices devices_at(std::uint32_t block, const SwitchedBy& switched, const
     return devices;
 }
 
+/// A motor whose pulses ceased at the touch, before its frames ended.
+struct Ceased {
+    MotorIndex motor;
+    FrameNumber ran = 0;
+    Position position;
+};
+
+/// The motor rests on the path before the end, where its pulses ceased. It is misplaced if that is more than a step
+/// outside the frames that are kept, which begin at `begin`.
+void end_early(const Ceased& ceased, Position begin, EpochEnd& end) {
+    const Position rest = end.positions[ceased.motor];
+    const Displacement step = Displacement::steps(1);
+    if (ceased.position < std::min(begin, rest) - step || ceased.position > std::max(begin, rest) + step) { return; }
+    end.kind = EpochEnd::Kind::Interrupted;
+    end.positions[ceased.motor] = ceased.position;
+}
+
 }  // namespace
 
 EpochRunner::EpochRunner(const MachineConfig& machine)
@@ -132,6 +149,7 @@ std::optional<EpochEnd> EpochRunner::evaluate(Slot now, std::span<const AxisView
     }
     const Slot first_start = rules::slot_of(*made_.start(), slot_);
     std::optional<FrameNumber> ran;
+    std::optional<Ceased> ceased;
     EpochEnd end;
     for (const MotorIndex m : motor_indices(axes.size())) {
         if (!axes[m].present(now, timing_)) { continue; }
@@ -140,15 +158,26 @@ std::optional<EpochEnd> EpochRunner::evaluate(Slot now, std::span<const AxisView
         const bool settled = state.at_rest && (took_part || state.stamp > first_start + rules::kHopSlots);
         if (!settled) { return std::nullopt; }
         const FrameNumber its = took_part ? state.ran : 0;
+        if (took_part && state.ceased && touch_.ceasing(m)) {
+            if (!state.touch || state.touch->epoch != epoch_) { return std::nullopt; }
+            ceased = Ceased{m, its, state.position};
+            continue;
+        }
         if (ran && *ran != its) {
             end.kind = EpochEnd::Kind::FramesDiffer;
             end.motor = m;
         }
         ran = ran ? std::max(*ran, its) : its;
     }
+    if (ceased && ceased->ran > ran.value_or(ceased->ran)) {
+        end.kind = EpochEnd::Kind::FramesDiffer;
+        end.motor = ceased->motor;
+    }
+    if (ceased && !ran) { ran = ceased->ran; }
     if (!ran || !made_.keeps(*ran)) { end.kind = EpochEnd::Kind::FramesDiffer; }
     if (end.kind == EpochEnd::Kind::FramesDiffer) { return end; }
     end = made_.end_behind(*ran);
+    if (ceased) { end_early(*ceased, history_.at(*made_.start(), end.ran)[ceased->motor], end); }
     for (const MotorIndex m : motor_indices(axes.size())) {
         if (axes[m].present(now, timing_) && axes[m].state->position != end.positions[m] && *ran > 0) {
             end.kind = EpochEnd::Kind::Misplaced;

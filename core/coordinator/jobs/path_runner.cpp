@@ -81,7 +81,9 @@ void PathRunner::pass_events(const PathTask& task, const LegEnd& end, const Loop
 
 std::optional<Probed> PathRunner::end_probe_at_begin(const PathTask& task, const LoopView& loop) {
     if (!task.probe) { return std::nullopt; }
-    const TouchInputs inputs = planner_.touch_inputs(*task.probe);
+    const KnownProgram& program = *task.job.program;
+    const Block* const move = program.block(task.next);
+    const TouchInputs inputs = planner_.touch_inputs(*task.probe, move, program.places(), task.from);
     check(!inputs.empty(), "the inputs of a probe are checked when its program arrives");
     return probing_.end_at_begin(task, inputs, !end_of_empty_leg(task, planner_), loop);
 }

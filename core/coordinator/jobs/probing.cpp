@@ -21,7 +21,7 @@ MotorPositions positions_of(const LoopView& loop) {
 
 /// Those that do not touch by the newest states.
 TouchInputs untouched(const TouchInputs& inputs, const LoopView& loop) {
-    TouchInputs left{.any_of = {}, .opens = inputs.opens};
+    TouchInputs left{.any_of = {}, .opens = inputs.opens, .ceases = inputs.ceases};
     for (const TouchInput& input : inputs.any_of) {
         const auto& state = loop.axes.state(input.motor);
         if (!state || !inputs.is_touched(input, state->inputs)) { left.any_of.append(input); }

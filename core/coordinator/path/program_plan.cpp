@@ -8,6 +8,7 @@
 #include "core/check.hpp"
 #include "core/coordinator/path/coordination.hpp"
 #include "core/coordinator/path/lai_frames.hpp"
+#include "core/coordinator/path/probe_cease.hpp"
 #include "core/coordinator/path/program_frames.hpp"
 #include "core/kinematics/kinematics.hpp"
 #include "core/motion/frame_limits.hpp"
@@ -46,6 +47,17 @@ double length_of_arc(const ProgramMove& arc, const AxisCounts& from, std::span<c
     return length_mm(arc, {from_mm.begin(), from_mm.size()});
 }
 
+/// The only axis that is elsewhere; nullopt if there is none, or several.
+std::optional<AxisIndex> only_difference(const AxisCounts& from, const AxisCounts& to) {
+    std::optional<AxisIndex> only;
+    for (const AxisIndex i : axis_indices(from.size())) {
+        if (from[i] == to[i]) { continue; }
+        if (only) { return std::nullopt; }
+        only = i;
+    }
+    return only;
+}
+
 void end(Leg& leg, std::uint32_t before, const AxisCounts& at) {
     leg.end = before;
     leg.to = at;
@@ -67,8 +79,15 @@ ProgramPlanner::ProgramPlanner(const MachineConfig& machine)
     for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
 }
 
-TouchInputs ProgramPlanner::touch_inputs(const Probe& probe) const {
+TouchInputs ProgramPlanner::touch_inputs(const Probe& probe, const Block* move, std::span<const AxisIndex> axes,
+                                         const AxisCounts& from) const {
     TouchInputs touch{.any_of = {}, .opens = probe.opens};
+    const auto* const straight = move != nullptr ? std::get_if<ProgramMove>(&move->action) : nullptr;
+    AxisCounts to = from;
+    if (straight != nullptr && moves(*move, axes, to)) {
+        const auto axis = only_difference(from, to);
+        touch.ceases = axis && ceases_at_touch(probe, *straight, *axis, machine_, kinematics_);
+    }
     for (const InputConfig* const input : inputs_of_probe(machine_.inputs, probe.input)) {
         const auto motor = motor_named(machine_, input->motor);
         if (!motor) { continue; }

@@ -66,8 +66,10 @@ public:
                                                     const AxisCounts& start) const;
     /// The machine's input of this use that programs know by this number; null if it has none.
     const InputConfig* input(InputUse use, int number) const { return input_numbered(machine_.inputs, use, number); }
-    /// The inputs of a probe, in the order of the file; none if the machine has none of this number.
-    TouchInputs touch_inputs(const Probe& probe) const;
+    /// The inputs at whose touch a probing move ends, in the order of the file; none if the machine has none of this
+    /// number. `move`: it begins at `from`, in a program with these `axes` (axes_of); null: it is not known yet.
+    TouchInputs touch_inputs(const Probe& probe, const Block* move, std::span<const AxisIndex> axes,
+                             const AxisCounts& from) const;
     std::expected<std::vector<Leg>, PlanError> plan(const Program& program, const AxisCounts& start) const {
         return plan(program.head(), WholeProgram(borrowed(program)), start);
     }

@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "core/coordinator/path/probe_cease.hpp"
 #include "core/number_text.hpp"
-#include "core/overrides.hpp"
 #include "core/protocol/rules.hpp"
 
 namespace lockstep {
@@ -38,16 +38,45 @@ std::expected<void, PlanError> refuse(const Block& block, std::string text) {
     return std::unexpected(PlanError{FaultCode::BadProgram, block.line, std::move(text)});
 }
 
-/// The greatest share of its feed at which a move may run.
-double greatest_override(const ProgramMove& move) { return move.is_feed_fixed ? 1 : Overrides::kMost / 100.0; }
+/// The only axis that the move moves; nullopt if it moves several, or none.
+std::optional<AxisIndex> only_axis(const ProgramMove& move, std::span<const AxisIndex> axes,
+                                   std::span<const double> from_mm) {
+    std::optional<AxisIndex> only;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        if (move.target_mm[i] == from_mm[i]) { continue; }
+        if (only) { return std::nullopt; }
+        only = axes[i];
+    }
+    return only;
+}
 
-std::expected<void, PlanError> check_overshoot(const Block& block, const ProgramMove& move,
-                                               const MachineConfig& machine, const InputConfig& input,
-                                               double deceleration_mm_s2) {
+/// How far the move goes on behind a touch, and the greatest feed with which that is allowed.
+struct Overshoot {
+    double behind_mm = 0;
+    double most_mm_s = 0;
+};
+
+Overshoot overshoot_of(const ProgramMove& move, const Probe& probe, const MachineConfig& machine,
+                       const InputConfig& input, std::optional<AxisIndex> axis, double deceleration_mm_s2) {
     const double by = greatest_override(move);
-    const double behind = overshoot_mm(machine, input, move.feed_mm_s * by, deceleration_mm_s2);
+    Overshoot found{overshoot_mm(machine, input, move.feed_mm_s * by, deceleration_mm_s2),
+                    greatest_probing_feed_mm_s(machine, input, deceleration_mm_s2) / by};
+    if (!axis) { return found; }
+    const Kinematics kinematics(machine);
+    const AxisConfig& moved = machine.axes[*axis];
+    if (ceases_at_touch(probe, move, *axis, machine, kinematics)) {
+        found.behind_mm = ceased_overshoot_mm(machine, input, moved, move.feed_mm_s * by);
+    }
+    const auto most = greatest_ceasing_feed_mm_s(probe, input, *axis, machine, kinematics);
+    if (most) { found.most_mm_s = std::max(found.most_mm_s, *most / by); }
+    return found;
+}
+
+std::expected<void, PlanError> check_overshoot(const Block& block, const ProgramMove& move, const Overshoot& overshoot,
+                                               const InputConfig& input) {
+    const auto [behind, most] = overshoot;
     if (behind <= input.max_overshoot_mm) { return {}; }
-    const double most = greatest_probing_feed_mm_s(machine, input, deceleration_mm_s2) / by;
+    const double by = greatest_override(move);
     return refuse(block, "with F" + rounded(move.feed_mm_s * 60) + (by > 1 ? " and the greatest feed override" : "") +
                              " this probing move may go on for " + rounded(behind) +
                              " mm behind the touch, and max_overshoot_mm of input " + input.name + " is " +
@@ -91,8 +120,10 @@ std::expected<void, PlanError> ProbeCheck::next(const Block& block, const Machin
     }
     has_moved_ = true;
     const double deceleration_mm_s2 = deceleration_of(*move, machine, axes, from_mm);
+    const auto axis = only_axis(*move, axes, from_mm);
     for (const InputConfig* const input : inputs_of_probe(machine.inputs, probe_->input)) {
-        const auto fits = check_overshoot(block, *move, machine, *input, deceleration_mm_s2);
+        const Overshoot overshoot = overshoot_of(*move, *probe_, machine, *input, axis, deceleration_mm_s2);
+        const auto fits = check_overshoot(block, *move, overshoot, *input);
         if (!fits) { return fits; }
     }
     return {};

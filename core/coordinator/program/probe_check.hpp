@@ -11,10 +11,10 @@
 
 namespace lockstep {
 
-/// How far a move may go on behind a touch, in mm. From the touch on, its speed is kept for at most the debounce of the
-/// input, two slots until the axis's state carries the veto, a stall of its process, the lease, and a frame
-/// (docs/protocol.md). Then the tail brakes it.
-/// `feed_mm_s`: along the move; `deceleration_mm_s2`: at which it can brake.
+/// How far a move may go on behind a touch if a veto ends it, in mm. From the touch on, its speed is kept for at most
+/// the debounce of the input, two slots until the axis's state carries the veto, a stall of its process, the lease, and
+/// a frame (docs/protocol.md). Then the tail brakes it. `feed_mm_s`: along the move; `deceleration_mm_s2`: at which it
+/// can brake.
 double overshoot_mm(const MachineConfig& machine, const InputConfig& input, double feed_mm_s,
                     double deceleration_mm_s2);
 

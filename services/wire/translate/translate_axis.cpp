@@ -73,6 +73,7 @@ lockstep_wire_AxisState to_wire(const AxisState& state) {
                                     .analog = {},
                                     .has_touch = state.touch.has_value(),
                                     .touch_channel = state.touch.value_or(EpochTouch{}).channel,
+                                    .ceased = state.ceased,
                                     .touch_epoch = state.touch.value_or(EpochTouch{}).epoch,
                                     .touch_tick = state.touch.value_or(EpochTouch{}).tick.value};
     std::ranges::copy(state.analog, wire.analog);
@@ -130,7 +131,8 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
                      .analog = analog,
                      .touch = wire.has_touch
                                   ? std::optional(EpochTouch{wire.touch_epoch, {wire.touch_tick}, wire.touch_channel})
-                                  : std::nullopt};
+                                  : std::nullopt,
+                     .ceased = wire.ceased};
 }
 
 lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {

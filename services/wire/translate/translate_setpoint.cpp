@@ -194,6 +194,7 @@ void check_shape(const lockstep_wire_Setpoint& wire, Checks& check) {
 void check_touch(const lockstep_wire_Setpoint& wire, Checks& check) {
     check.within<std::size_t>("the number of touch_motor", wire.touch_motor._length, 0, kMaxTouchInputs);
     check.same("the number of touch_channel", wire.touch_channel._length, wire.touch_motor._length);
+    if (wire.touch_ceases) { check.same("the number of touch_motor with touch_ceases", wire.touch_motor._length, 1U); }
     for (const auto motor : elements(wire.touch_motor)) {
         check.within<std::size_t>("touch_motor", motor, 0, kMaxAxes - 1);
     }
@@ -208,6 +209,7 @@ void read_touch(const lockstep_wire_Setpoint& wire, TouchInputs& touch) {
         touch.any_of.append({MotorIndex{wire.touch_motor._buffer[i]}, wire.touch_channel._buffer[i]});
     }
     touch.opens = wire.touch_opens;
+    touch.ceases = wire.touch_ceases;
 }
 
 void write_touch(const TouchInputs& touch, SetpointMessage& message) {
@@ -221,6 +223,7 @@ void write_touch(const TouchInputs& touch, SetpointMessage& message) {
     show(message.touch_motor, storage.touch_motor);
     show(message.touch_channel, storage.touch_channel);
     message.touch_opens = touch.opens;
+    message.touch_ceases = touch.ceases;
 }
 
 void check_values(const lockstep_wire_Setpoint& wire, Checks& check) {

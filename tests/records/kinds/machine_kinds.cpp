@@ -81,6 +81,23 @@ Record sent_in_parts() {
     return run.finish();
 }
 
+/// A probe at the device of X touches in a slow move to this place, and the next program goes back.
+Record probed(VirtualOptions options, const std::string& place) {
+    options.machine.inputs = {
+        {.name = "probe", .motor = "X", .channel = 3, .use = InputUse::Probe, .number = 0, .max_overshoot_mm = 20}};
+    MachineRun run(options);
+    run.home();
+    run.begin("G38.2 " + place + " F300\n");
+    run.wait_ms(700);
+    run.vm().set_input(0, true);
+    run.to_rest();
+    run.vm().set_input(0, false);
+    run.wait_ms(100);
+    run.run("G0 X5 Y5\n");
+    run.wait_ms(200);
+    return run.finish();
+}
+
 }  // namespace
 
 std::vector<RecordKind> machine_kinds() {
@@ -117,6 +134,9 @@ std::vector<RecordKind> machine_kinds() {
         {"geared_and_skewed_motors", [] { return by_motors(geared(), kArc); }},
         {"six_axes", six_axes},
         {"program_sent_in_parts", sent_in_parts},
+        {"touch_in_a_move_of_two_axes", [] { return probed(options_of(small_plotter()), "X20 Y9"); }},
+        {"touch_at_which_pulses_cease", [] { return probed(options_of(small_plotter()), "X20"); }},
+        {"touch_at_which_pulses_cease_by_own_clock", [] { return probed(own_clocks(small_plotter()), "X20"); }},
     };
 }
 

@@ -19,6 +19,7 @@ Frame RandomMessages::frame() {
     for (std::uint32_t n = index(kMaxTouchInputs + 1); n > 0; --n) {
         frame.touch.any_of.append({MotorIndex{index(kMaxAxes)}, static_cast<std::uint8_t>(index(kMostInputs))});
     }
+    frame.touch.ceases = frame.touch.any_of.size() == 1 && coin();
     return frame;
 }
 
@@ -54,7 +55,8 @@ AxisState RandomMessages::axis_state() {
             .outputs = static_cast<std::uint16_t>(bits()),
             .pulses_left = static_cast<std::uint32_t>(bits()),
             .analog = analog_levels(),
-            .touch = maybe(EpochTouch{bits(), {far()}, static_cast<std::uint8_t>(index(kMostInputs))})};
+            .touch = maybe(EpochTouch{bits(), {far()}, static_cast<std::uint8_t>(index(kMostInputs))}),
+            .ceased = coin()};
 }
 
 AxisHealth RandomMessages::axis_health() {

@@ -13,7 +13,10 @@ public:
     FrameCheck(const Recording& recording, Violations& violations) : recording_(recording), violations_(violations) {}
 
     void check() {
-        for (const auto& [number, epoch] : recording_.epochs) { check_sent(epoch.frames); }
+        for (const auto& [number, epoch] : recording_.epochs) {
+            check_sent(epoch.frames);
+            if (epoch.ceases) { check_moves_alone(*epoch.ceases, epoch.frames); }
+        }
         for (std::size_t i = 0; i < recording_.motors.size(); ++i) { check_axis(i); }
         check_same();
     }
@@ -29,6 +32,17 @@ private:
             if (number != next || !joins) { object({}, frame.start, "frame " + text(number) + " does not follow"); }
             before = &frame;
             ++next;
+        }
+    }
+
+    /// A motor whose pulses may cease leaves no other motor on its path.
+    void check_moves_alone(std::size_t motor, const std::map<FrameNumber, SentFrame>& frames) {
+        for (const auto& [number, frame] : frames) {
+            for (std::size_t i = 0; i < frame.shares.size(); ++i) {
+                const Share& share = frame.shares[i];
+                const bool moves = share.from != share.to || share.to != share.rest;
+                if (i != motor && moves) { object(i, frame.start, "moves, while another motor's pulses may cease"); }
+            }
         }
     }
 
@@ -73,6 +87,7 @@ private:
         const bool stopped = !recording_.emergencies.empty() || may_be_stopped(recording_, i, lost->at, over);
         if (lost->epoch == 0 || stopped) { return; }
         const SentEpoch& epoch = recording_.epochs.at(lost->epoch);
+        if (epoch.ceases == i) { return; }
         for (FrameNumber k = lost->recorded; k <= lost->armed; ++k) {
             if (steps_to_rest(epoch, i, lost->recorded, k) == net) { return; }
         }
@@ -106,7 +121,8 @@ private:
             return track.commanded - track.clock_error <= e.rests && end >= e.asked;
         });
         const bool stopped = may_be_stopped(recording_, i, track.commanded, track.commanded + track.commanded_ticks);
-        if (track.cut && !asked && !stopped) { object(i, track.start, "a frame was cut short"); }
+        const bool may_cease = epoch->second.ceases == i;
+        if (track.cut && !asked && !stopped && !may_cease) { object(i, track.start, "a frame was cut short"); }
     }
 
     /// All axes ran the same frames, except those that a fault may have separated. No two axes are apart by more than

@@ -1,7 +1,12 @@
 #include "tests/simulation/simtest/draw/draw_probes.hpp"
 
+#include <algorithm>
+#include <limits>
+
+#include "core/coordinator/program/probe_check.hpp"
 #include "core/kinematics/motors.hpp"
 #include "tests/simulation/simtest/draw/draw.hpp"
+#include "tests/simulation/simtest/run/probe_record.hpp"
 
 namespace lockstep::simtest {
 namespace {
@@ -17,13 +22,19 @@ Interrupt interrupt_of(Draw& draw, Interrupt::Kind kind) {
     return interrupt;
 }
 
-/// A straight move of all axes to somewhere within their travel.
+/// A straight move of all axes to somewhere within their travel, which any probe bears.
 Program draw_probing(Draw& draw, const MachineConfig& machine) {
     Program program{.name = "probe", .axes = {}, .start_mm = {}, .blocks = {}};
     ProgramMove move{.feed_mm_s = draw.magnitude(0.5, 30), .is_feed_fixed = true};
+    double least_decel = std::numeric_limits<double>::max();
     for (const AxisConfig& axis : machine.axes) {
         program.axes.push_back(axis.name);
         move.target_mm.push_back(draw.real(axis.position_min_mm, axis.position_max_mm));
+        least_decel = std::min(least_decel, axis.max_decel_mm_s2);
+    }
+    for (const std::size_t input : probe_inputs(machine)) {
+        const double most = greatest_probing_feed_mm_s(machine, machine.inputs[input], least_decel);
+        move.feed_mm_s = std::min(move.feed_mm_s, most);
     }
     program.blocks.push_back({1, Probe{.must_touch = draw.chance(0.7)}});
     program.blocks.push_back({2, std::move(move)});

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "tests/simulation/simtest/draw/draw_bounces.hpp"
+#include "tests/simulation/simtest/draw/draw_close_probes.hpp"
 #include "tests/simulation/simtest/draw/draw_encoders.hpp"
 #include "tests/simulation/simtest/draw/draw_fault.hpp"
 #include "tests/simulation/simtest/draw/draw_inputs.hpp"
@@ -319,6 +320,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (kind.late_devices) { give_late_devices(seed, scenario); }
     if (kind.inputs) { give_inputs(seed, scenario); }
     if (kind.probes) { give_probes(seed, scenario); }
+    if (kind.probes && kind.close_probes) { bring_probe_close(seed, scenario); }
     if (kind.bounces) { give_bounces(seed, scenario); }
     if (kind.small_rings) { give_rings(seed, scenario); }
     if (kind.jogs) { give_jogs(seed, with_plant(faults, asked), scenario); }

@@ -80,6 +80,7 @@ struct MachineKind {
     bool jogs = false;                // axes are jogged between programs (draw_jogs.hpp)
     bool inputs = false;              // with an emergency stop and a door (draw_inputs.hpp)
     bool probes = false;              // programs probe (draw_probes.hpp)
+    bool close_probes = false;        // at the device of the motor that moves (draw_close_probes.hpp)
     bool outputs = false;             // programs switch outputs (draw_outputs.hpp)
     bool boards = false;              // with a device without a motor
     bool bounces = false;             // contacts of inputs bounce (draw_bounces.hpp)
@@ -110,6 +111,8 @@ inline constexpr auto kMachineFlags = std::to_array<MachineKind::Flag>(
      {"--inputs", &MachineKind::inputs, "machines with an emergency stop and a door at inputs of devices"},
      {"--probes", &MachineKind::probes,
       "machines with a probe at a device, which touches at any time of probing moves"},
+     {"--close-probes", &MachineKind::close_probes,
+      "with --probes: the probe is at the device of the motor that probes, whose pulses cease at the touch"},
      {"--outputs", &MachineKind::outputs,
       "machines with outputs that programs switch, one of them in proportion to the speed"},
      {"--boards", &MachineKind::boards,

@@ -64,6 +64,7 @@ struct Hash {
     void add(const TouchInputs& touch) {
         add(!touch.empty());
         for (const TouchInput& input : touch.any_of) { of(input.motor, input.channel, touch.opens); }
+        add_if(touch.ceases, touch.ceases);
     }
     void add(const MotorOutputs& of_motor) { of(of_motor.motor, of_motor.track.body, of_motor.track.tail); }
     void add(const Frame& f) {
@@ -76,6 +77,7 @@ struct Hash {
            s.position, s.velocity, s.tick, s.following_error_steps, s.command_done, s.command_fault, s.config_hash,
            s.refused_frames, s.clock_error, s.term, s.hears_owner, s.unproved, s.switches);
         add_if(s.touch.has_value(), s.touch);
+        add_if(s.ceased, s.ceased);
         add_if(s.play_steps != 0, s.play_steps);
         add_if(s.corrected_steps != 0, s.corrected_steps);
         add_if(s.outputs != 0 || s.pulses_left != 0 || s.analog != AnalogLevels{}, s.outputs, s.pulses_left, s.analog);

@@ -42,7 +42,8 @@ void measure(const Bench& bench, double feed_mm_s, const Counts& at, ProbeRecord
     }
     for (const std::size_t input : probe_inputs(machine)) {
         const double announced = overshoot_mm(machine, machine.inputs[input], feed_mm_s, most_decel);
-        record.most_mm = std::max(record.most_mm, announced + steps_mm);
+        const double allowed = std::min(announced, machine.inputs[input].max_overshoot_mm);
+        record.most_mm = std::max(record.most_mm, allowed + steps_mm);
     }
 }
 

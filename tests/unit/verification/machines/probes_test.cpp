@@ -38,10 +38,24 @@ protected:
         ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
         ASSERT_FALSE(recorded.vm().state()->probe->touched());
     }
-    static Program probe(std::vector<double> to, std::vector<double> from, bool must) {
+    /// A move of X alone, whose pulses cease at the touch.
+    static void record_ceasing() {
+        MachineSetup machine = test::example("two-axis");
+        machine.inputs = {{.name = "probe", .motor = "X", .channel = 3, .use = InputUse::Probe, .number = 0}};
+        test::RecordedMachine recorded(machine, path());
+        recorded.home();
+        const std::vector<double> at = parked_mm(machine);
+        recorded.begin(probe({at[0] + 30, at[1]}, at, true, true));
+        recorded.advance_ms(900);
+        recorded.vm().set_input(0, true);
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+        ASSERT_TRUE(recorded.vm().state()->probe && recorded.vm().state()->probe->touched());
+    }
+    static Program probe(std::vector<double> to, std::vector<double> from, bool must, bool is_feed_fixed = false) {
         Program program{.name = "probe.gcode", .axes = {"X", "Y"}, .start_mm = std::move(from), .blocks = {}};
         program.blocks.push_back({1, Probe{.must_touch = must}});
-        program.blocks.push_back({1, ProgramMove{.target_mm = std::move(to), .feed_mm_s = 10}});
+        program.blocks.push_back(
+            {1, ProgramMove{.target_mm = std::move(to), .feed_mm_s = 10, .is_feed_fixed = is_feed_fixed}});
         return program;
     }
     static Findings altered(const std::function<void(job_t&)>& change, const std::string& outcome = "touched") {
@@ -120,6 +134,24 @@ TEST_F(RecordedProbes, AreNotExactIfATouchIsRecordedAsMissed) {
                           job.start_tick = 0;
                       }),
                       "without a touch, but by the record of its inputs, input probe touched");
+}
+
+TEST_F(RecordedProbes, RestWhereTheirPulsesHadToCease) {
+    record_ceasing();
+    const Findings whole = verify_log(path()).value();
+    EXPECT_FALSE(whole.difference) << whole.difference->text;
+    EXPECT_TRUE(whole.is_exact());
+
+    test::AlteredLog log(path());
+    EXPECT_EQ(log.change<run_t>("_RUN",
+                                [](run_t& run) {
+                                    const bool has_ceased = run.cut != 0 && run.epoch != 0;
+                                    run.stop_count += has_ceased ? 1 : 0;
+                                    return has_ceased;
+                                }),
+              1);
+    const Findings later = verify_log(log.write(test::test_directory() / "altered.lcm")).value();
+    expect_difference(later, "its pulses had to cease at step");
 }
 
 TEST_F(RecordedProbes, AreUnknownWithoutTheChangeOfTheInput) {

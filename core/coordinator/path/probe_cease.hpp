@@ -1,0 +1,36 @@
+// Which probing moves end at their touch, and not behind it by the veto: those of one motor whose own device has the
+// probe's input. The device ends the pulses at the first tick at which the input, debounced, has touched.
+#pragma once
+
+#include <optional>
+
+#include "core/indices.hpp"
+#include "core/kinematics/kinematics.hpp"
+#include "core/machine.hpp"
+#include "core/program.hpp"
+
+namespace lockstep {
+
+/// The motor whose pulses can cease at a touch while it moves only this axis, by the axis's own steps; nullopt: the
+/// probe has inputs at other devices, or other motors move too.
+std::optional<MotorIndex> motor_that_may_cease(const Probe& probe, AxisIndex axis, const MachineConfig& machine,
+                                               const Kinematics& kinematics);
+
+/// Whether a move with this probe, which moves only this axis, ends at the touch: with any override its speed is at
+/// most the motor's start velocity, so that the motor loses no step when its pulses cease.
+bool ceases_at_touch(const Probe& probe, const ProgramMove& move, AxisIndex axis, const MachineConfig& machine,
+                     const Kinematics& kinematics);
+
+/// The greatest share of its feed at which a move may run.
+double greatest_override(const ProgramMove& move);
+
+/// How far such a move goes on behind the touch, in mm of the axis. A step is added, because motors rest on steps.
+double ceased_overshoot_mm(const MachineConfig& machine, const InputConfig& input, const AxisConfig& axis,
+                           double feed_mm_s);
+
+/// The greatest speed of a move with this probe that moves only this axis, ends at the touch, and goes on behind it by
+/// no more than the input's max_overshoot_mm; nullopt if no such move ends at the touch.
+std::optional<double> greatest_ceasing_feed_mm_s(const Probe& probe, const InputConfig& input, AxisIndex axis,
+                                                 const MachineConfig& machine, const Kinematics& kinematics);
+
+}  // namespace lockstep

@@ -1,0 +1,156 @@
+// Probing moves of one motor whose own device has the probe's input: its pulses cease at the touch.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/coordinator/path/probe_cease.hpp"
+#include "tests/unit/virtual/rig.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kCloseProbe = 0;
+constexpr double kDebounce_ms = 1;
+
+MachineConfig machine_with_close_probe() {
+    MachineConfig machine = small_machine();
+    for (AxisConfig& axis : machine.axes) { axis.start_velocity_mm_s = 6; }
+    machine.inputs = {{.name = "probe",
+                       .motor = "X",
+                       .channel = 3,
+                       .use = InputUse::Probe,
+                       .debounce_ms = kDebounce_ms,
+                       .number = 0,
+                       .max_overshoot_mm = 0.03}};
+    return machine;
+}
+
+class CeasingMoves : public Rig {
+protected:
+    CeasingMoves() : Rig({.machine = MachineSetup{machine_with_close_probe()}}) { vm.observe(log); }
+
+    static Program probe_to(const std::vector<double>& place, double feed_mm_s = 5, const Probe& probe = {}) {
+        Program program = program_of({}, 0);
+        program.blocks.push_back({1, probe});
+        program.blocks.push_back({1, ProgramMove{.target_mm = place, .feed_mm_s = feed_mm_s, .is_feed_fixed = true}});
+        return program;
+    }
+    void begin(const Program& program) {
+        home();
+        log.steps.clear();
+        const Reply reply = run(program);
+        ASSERT_EQ(reply.status, ReplyStatus::Accepted) << reply.text;
+    }
+    void touch(bool closed = true) { vm.set_input(kCloseProbe, closed); }
+    const ProbeResult& result() const { return *vm.state()->probe; }
+    double behind_mm() const { return std::abs(static_cast<double>(counts()[kX]) / 100 - result().places_mm[kX]); }
+
+    StepLog log;
+};
+
+TEST_F(CeasingMoves, EndWhenTheInputHasFollowedItsPin) {
+    begin(probe_to({35, 5}));
+    wait(1.537);
+    touch();
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
+    ASSERT_TRUE(vm.state()->probe && result().touched());
+    ASSERT_FALSE(log.steps.empty());
+    const Ticks debounce{std::llround(kDebounce_ms * 1000)};
+    EXPECT_LE(Tick{log.steps.back().tick}, result().tick + debounce + Ticks{2});
+    EXPECT_GE(behind_mm(), 0);
+    EXPECT_LE(behind_mm(), 0.02);
+}
+
+TEST_F(CeasingMoves, TowardTheLowerEndToo) {
+    home();
+    ASSERT_EQ(run(program_of({{50, 5}}, 40)).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 9)) << describe();
+    Program back = probe_to({10, 5});
+    back.start_mm = {50, 5};
+    ASSERT_EQ(run(back).status, ReplyStatus::Accepted);
+    wait(1.2);
+    touch();
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+    ASSERT_TRUE(vm.state()->probe && result().touched());
+    EXPECT_LE(behind_mm(), 0.02);
+}
+
+TEST_F(CeasingMoves, AtAnOpeningTouchToo) {
+    home();
+    touch();
+    wait(0.1);
+    ASSERT_EQ(run(probe_to({35, 5}, 5, {.opens = true})).status, ReplyStatus::Accepted);
+    wait(1);
+    EXPECT_EQ(vm.state()->phase, MachinePhase::Running);
+    touch(false);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+    ASSERT_TRUE(result().touched());
+    EXPECT_LE(behind_mm(), 0.02);
+}
+
+TEST_F(CeasingMoves, EndEarlyIfTheProbeTouchesBeforeTheyBegin) {
+    begin(probe_to({35, 5}));
+    touch();
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+    EXPECT_EQ(vm.state()->job_fault, FaultCode::ProbeTouchedEarly);
+    EXPECT_EQ(vm.state()->fault, FaultCode::None);
+    EXPECT_TRUE(log.steps.empty());
+}
+
+TEST_F(CeasingMoves, TheNextProgramBeginsWhereTheMoveEnded) {
+    begin(probe_to({35, 5}));
+    wait(1);
+    touch();
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+    touch(false);
+    const std::vector<std::int64_t> at = counts();
+    const std::vector<double> here{static_cast<double>(at[kX]) / 100, static_cast<double>(at[kY]) / 100};
+    ASSERT_EQ(run(program_of({{6, 6}}, 20, here)).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 9)) << describe();
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{600, 600}));
+}
+
+TEST_F(CeasingMoves, CeaseWhileTheyComeToAHold) {
+    begin(probe_to({45, 5}));
+    wait(1);
+    ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
+    touch();
+    wait(2);
+    EXPECT_EQ(vm.state()->phase, MachinePhase::Idle) << describe();
+    ASSERT_TRUE(result().touched());
+    EXPECT_LE(behind_mm(), 0.02);
+}
+
+TEST_F(CeasingMoves, CeaseAlsoAfterAHold) {
+    begin(probe_to({45, 5}));
+    wait(1);
+    ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Holding, 3)) << describe();
+    ASSERT_EQ(ask(CommandKind::Resume).status, ReplyStatus::Accepted);
+    wait(1);
+    touch();
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+    ASSERT_TRUE(result().touched());
+    EXPECT_LE(behind_mm(), 0.02);
+}
+
+/// Others would leave the path, and above its start velocity the motor would lose steps.
+TEST_F(CeasingMoves, AreNoneOfSeveralMotorsAndNoFastOnes) {
+    home();
+    const Reply of_both = run(probe_to({35, 25}));
+    EXPECT_EQ(of_both.status, ReplyStatus::Refused);
+    EXPECT_NE(of_both.text.find("mm behind the touch, and max_overshoot_mm of input probe is 0.03"), std::string::npos)
+        << of_both.text;
+    const Reply fast = run(probe_to({35, 5}, 7));
+    EXPECT_EQ(fast.status, ReplyStatus::Refused);
+    EXPECT_NE(fast.text.find("use at most F360"), std::string::npos) << fast.text;
+}
+
+TEST_F(CeasingMoves, AreNoneOfAnotherMotorThanTheOneWithTheInput) {
+    home();
+    EXPECT_EQ(run(probe_to({5, 35})).status, ReplyStatus::Refused);
+}
+
+}  // namespace
+}  // namespace lockstep
