@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/protocol/frame_room.hpp"
 #include "services/documents/machine_file.hpp"
+#include "tests/benchmarks/reactions/in_copy.hpp"
 #include "tests/benchmarks/reactions/moving_machine.hpp"
 
 namespace lockstep {
@@ -53,6 +55,12 @@ MachineSetup with(MachineSetup machine, const Profile& profile) {
     return machine;
 }
 
+/// A homed machine at rest. Homing takes longer than a measurement, so each machine homes once.
+struct HomedMachine {
+    const char* profile;
+    std::unique_ptr<MovingMachine> machine;
+};
+
 void begin(Motion motion, MovingMachine& moving) {
     switch (motion) {
         case Motion::Together: return moving.move();
@@ -62,32 +70,35 @@ void begin(Motion motion, MovingMachine& moving) {
 }
 
 /// Measures the time from the client's command to the first pulse.
-void measure_begin_of_jog(const MachineSetup& machine, const Profile& profile) {
+void measure_begin_of_jog(const HomedMachine& homed) {
+    MovingMachine& moving = *homed.machine;
     std::vector<double> begins;
     for (int i = 0; i < kTimes; ++i) {
-        MovingMachine moving(with(machine, profile));
-        moving.wait(Ticks{profile.slot_us * i * 7 / kTimes});
-        const Tick pressed = moving.vm().now();
-        moving.jog();
-        moving.wait(kSecond);
-        begins.push_back(static_cast<double>((moving.first_pulse_after(pressed).value_or(pressed) - pressed).value) /
-                         1000);
+        begins.push_back(in_copy([&] {
+            moving.wait(Ticks{moving.vm().machine().timing.slot_us * i * 7 / kTimes});
+            const Tick pressed = moving.vm().now();
+            moving.jog();
+            moving.wait(kSecond);
+            return static_cast<double>((moving.first_pulse_after(pressed).value_or(pressed) - pressed).value) / 1000;
+        }));
     }
-    std::printf("| jog: begins | %s | %s | |\n", profile.name, spread(begins).c_str());
+    std::printf("| jog: begins | %s | %s | |\n", homed.profile, spread(begins).c_str());
 }
 
-void measure(const MachineSetup& machine, const Profile& profile, const Event& event) {
+void measure(const HomedMachine& homed, const Event& event) {
+    MovingMachine& moving = *homed.machine;
     std::vector<double> brakes, rests;
     for (int i = 0; i < kTimes; ++i) {
-        MovingMachine moving(with(machine, profile));
-        begin(event.motion, moving);
-        const ProtocolTiming& t = moving.vm().machine().timing;
-        moving.wait(kSecond + Ticks{t.slot_us * t.frame_slots * i / kTimes + t.slot_us * i * 7 / kTimes});
-        const Reaction reaction = moving.after([&] { event.happens(moving); });
+        const Reaction reaction = in_copy([&] {
+            begin(event.motion, moving);
+            const ProtocolTiming& t = moving.vm().machine().timing;
+            moving.wait(kSecond + Ticks{t.slot_us * t.frame_slots * i / kTimes + t.slot_us * i * 7 / kTimes});
+            return moving.after([&] { event.happens(moving); });
+        });
         brakes.push_back(reaction.brakes_ms);
         rests.push_back(reaction.rests_ms);
     }
-    std::printf("| %s | %s | %s | %s |\n", event.name, profile.name, spread(brakes).c_str(),
+    std::printf("| %s | %s | %s | %s |\n", event.name, homed.profile, spread(brakes).c_str(),
                 event.comes_to_rest ? spread(rests).c_str() : "");
 }
 
@@ -122,9 +133,13 @@ int main_of(const char* file) {
     std::printf(
         "| event, at 100 mm/s | profile | brakes after: least / median / most, ms | rests after, ms "
         "|\n|---|---|---|---|\n");
-    for (const Profile& profile : kProfiles) { measure_begin_of_jog(*machine, profile); }
+    std::vector<HomedMachine> machines;
+    for (const Profile& profile : kProfiles) {
+        machines.push_back({profile.name, std::make_unique<MovingMachine>(with(*machine, profile))});
+    }
+    for (const HomedMachine& homed : machines) { measure_begin_of_jog(homed); }
     for (const Event& event : events) {
-        for (const Profile& profile : kProfiles) { measure(*machine, profile, event); }
+        for (const HomedMachine& homed : machines) { measure(homed, event); }
     }
     return 0;
 }
