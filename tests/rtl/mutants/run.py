@@ -154,7 +154,19 @@ def mutated(rtl, work, file, there, instead):
     return folder
 
 
-def detected(rtl, build, mutant):
+def flags_of_models(work):
+    """The compiler's flags of a mutant's model. Verilator's header, which takes most of its compilation, is precompiled
+    here, with the options that tests/rtl/verilate gives, as otherwise the compiler refuses it."""
+    root = subprocess.run(["verilator", "--getenv", "VERILATOR_ROOT"], capture_output=True, text=True, check=True)
+    include = f"{root.stdout.strip()}/include"
+    header = pathlib.Path(work) / "runtime.hpp"
+    header.write_text("#include <verilated.h>\n")
+    subprocess.run([os.environ.get("CXX", "g++"), "-std=c++20", "-O0", "-shared", "-fPIC", f"-I{include}", "-isystem",
+                    f"{include}/vltstd", "-x", "c++-header", header, "-o", f"{header}.gch"], check=True)
+    return f"-O0 -include {header} -Werror=invalid-pch"
+
+
+def detected(rtl, build, flags, mutant):
     library, file, there, instead = mutant
     out, program = verilated(build, library)
     with tempfile.TemporaryDirectory() as work:
@@ -162,7 +174,7 @@ def detected(rtl, build, mutant):
         top, name, part, *options = (out / "arguments").read_text().splitlines()
         subprocess.run([TEST_DIRECTORY / "verilate", f"{work}/out", top, name, folder / pathlib.Path(part).name,
                         *options, "-Wno-fatal"],
-                       env={**os.environ, "MODEL_FLAGS": "-O0"}, stderr=subprocess.DEVNULL, check=True)
+                       env={**os.environ, "MODEL_FLAGS": flags}, stderr=subprocess.DEVNULL, check=True)
         try:
             tests = TESTS.get(file) or TESTS.get(library, "*")
             run = subprocess.run([program, "--gtest_fail_fast", f"--gtest_filter={tests}"],
@@ -176,8 +188,9 @@ def detected(rtl, build, mutant):
 def main():
     rtl, build = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
     mutants = LONG_MUTANTS if "--long" in sys.argv else MUTANTS
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        found = list(pool.map(lambda mutant: detected(rtl, build, mutant), mutants))
+    with tempfile.TemporaryDirectory() as work, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        flags = flags_of_models(work)
+        found = list(pool.map(lambda mutant: detected(rtl, build, flags, mutant), mutants))
     for (_, file, there, instead), was_detected in zip(mutants, found):
         if not was_detected:
             print(f"{file}: no test notices `{instead}` in place of `{there}`")
