@@ -106,25 +106,30 @@ std::vector<GcodeError> errors(const std::string& text) {
     return reading ? std::vector<GcodeError>{} : reading.error();
 }
 
-TEST(GcodeLimits, ProgramThatIsTooLongIsReadNoFurther) {
-    const auto found = errors("o1 while [1]\nG0 X[1-#5420]\no1 endwhile\nG0 X9999\n");
+/// The errors of a check, which drops the blocks that it reads, are those of a reading.
+void expect_check_finds(const std::vector<GcodeError>& errors, const std::string& text) {
+    const auto found = check_gcode(text, three_axes());
+    ASSERT_EQ(found.size(), errors.size()) << text;
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+        EXPECT_EQ(found[k].line, errors[k].line);
+        EXPECT_EQ(found[k].column, errors[k].column);
+        EXPECT_EQ(found[k].message, errors[k].message);
+    }
+}
+
+TEST(GcodeLimits, ProgramThatIsTooLongIsReadAndCheckedNoFurther) {
+    const std::string text = "o1 while [1]\nG0 X[1-#5420]\no1 endwhile\nG0 X9999\n";
+    const auto found = errors(text);
     ASSERT_THAT(found, SizeIs(1));
     EXPECT_EQ(found[0].line, 2);
     EXPECT_THAT(found[0].message, HasSubstr("more than 1000000 blocks; split it in two"));
+    expect_check_finds(found, text);
 }
 
-/// The blocks of a program that is only checked are dropped, but they count.
 TEST(GcodeLimits, ACheckHasTheErrorsOfAReading) {
-    for (const char* text : {"o1 while [1]\nG0 X[1-#5420]\no1 endwhile\nG0 X9999\n", "G0 X9999\nG1 Y1\nG0 Y-7\n",
-                             "o1 repeat [3000]\nG0 X1\nX2\no1 endrepeat\nG0 X9999\n", "G0 X1\n"}) {
-        const auto read = errors(text);
-        const auto found = check_gcode(text, three_axes());
-        ASSERT_EQ(found.size(), read.size()) << text;
-        for (std::size_t k = 0; k < read.size(); ++k) {
-            EXPECT_EQ(found[k].line, read[k].line);
-            EXPECT_EQ(found[k].column, read[k].column);
-            EXPECT_EQ(found[k].message, read[k].message);
-        }
+    for (const char* text :
+         {"G0 X9999\nG1 Y1\nG0 Y-7\n", "o1 repeat [3000]\nG0 X1\nX2\no1 endrepeat\nG0 X9999\n", "G0 X1\n"}) {
+        expect_check_finds(errors(text), text);
     }
 }
 
