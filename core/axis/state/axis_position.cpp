@@ -46,6 +46,7 @@ void AxisPosition::set_zero(std::int64_t zero_count, const DeviceStatus& device)
     zero_count_ = zero_count;
     encoder_zero_ = device.encoder_count - device.position.count();
     corrected_ = 0;
+    kept_run_.reset();
     play_.begin(0, device.position.count());
     homed_ = true;
     is_assumed_ = false;
@@ -68,7 +69,7 @@ std::optional<KeptPosition> AxisPosition::keep(const DeviceView& device) {
     kept_run_ = device.newest_run();
     const DeviceStatus& status = device.status();
     kept_ =
-        KeptPosition{scale_, status.power_up, kept_run_, status.position, zero_count_, encoder_zero_, play_.steps()};
+        KeptPosition{scale_, status.power_up, *kept_run_, status.position, zero_count_, encoder_zero_, play_.steps()};
     return *kept_;
 }
 

@@ -61,7 +61,8 @@ public:
     /// The steps lost since the homing whose loss was taken over, without their signs.
     std::uint32_t corrected_steps() const { return corrected_; }
 
-    /// Call it at rest without a fault. Returns the position to keep, once after each run that leaves the axis homed.
+    /// Call it at rest without a fault. Returns the position to keep, once after each run that leaves the axis homed,
+    /// and once after each new zero.
     std::optional<KeptPosition> keep(const DeviceView& device);
 
 private:
@@ -73,9 +74,9 @@ private:
     bool is_assumed_ = false;
     FaultCode unproved_ = FaultCode::DeviceMissing;
     std::int64_t zero_count_ = 0;
-    std::int64_t encoder_zero_ = 0;  // encoder minus count, at the homing
-    std::uint32_t corrected_ = 0;    // steps
-    std::uint64_t kept_run_ = 0;     // the run after which the position was kept last
+    std::int64_t encoder_zero_ = 0;          // encoder minus count, at the homing
+    std::uint32_t corrected_ = 0;            // steps
+    std::optional<std::uint64_t> kept_run_;  // the run after which this zero was kept
     FollowedPlay play_;
 };
 

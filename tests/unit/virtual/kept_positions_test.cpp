@@ -1,5 +1,5 @@
 // The positions of axes outlive their processes. An axis is homed again only if its device proves the position.
-#include "tests/unit/virtual/rig.hpp"
+#include "tests/unit/virtual/motors/motor_machines.hpp"
 
 namespace lockstep {
 namespace {
@@ -104,6 +104,26 @@ TEST_F(KeptPositions, AnAxisThatIsPushedMeanwhileRestartsUnhomed) {
     wait(0.15);
     EXPECT_FALSE(y_is_homed());
     EXPECT_EQ(doubt(), FaultCode::PositionPushed);
+}
+
+/// Homing in place makes no run, so the device cannot prove that an older zero is out of date.
+class KeptInPlace : public Rig {
+protected:
+    KeptInPlace() : Rig({.machine = MachineSetup{two_belts()}, .keeps_positions = true}) {}
+};
+
+TEST_F(KeptInPlace, AnAxisRestartsWithTheZeroOfItsLastHoming) {
+    home();
+    const std::vector<std::int64_t> park = counts();
+    ASSERT_EQ(run(program_of({{30, 20}}, 40)).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+    ASSERT_NE(counts(), park);
+    home();
+    ASSERT_EQ(counts(), park);
+    vm.schedule({.kind = VirtualFault::Kind::Crash, .process = kX, .at = vm.now(), .lasts = {50'000}});
+    wait(0.15);
+    EXPECT_TRUE(vm.axis_states()[kX]->homed);
+    EXPECT_EQ(counts(), park);
 }
 
 }  // namespace

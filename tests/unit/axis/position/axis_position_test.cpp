@@ -65,6 +65,22 @@ TEST_F(StandingAxis, IsKeptOnceAfterEachRun) {
     EXPECT_TRUE(position.keep(device));
 }
 
+/// The axis homes in place, so no run tells the next process that the kept zero has changed.
+TEST_F(StandingAxis, IsKeptAgainWithANewZero) {
+    (void)device.begin_run();
+    show(at_rest());
+    position.set_zero(40, at_rest());
+    const auto old = position.keep(device);
+    ASSERT_TRUE(old);
+    position.begin_homing();
+    position.set_zero(60, at_rest());
+    const auto kept = position.keep(device);
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->zero_count, 60);
+    EXPECT_EQ(kept->run, old->run);
+    EXPECT_FALSE(position.keep(device)) << "the same zero";
+}
+
 TEST_F(StandingAxis, KeptByTheProcessBeforeHomesTheAxis) {
     (void)device.begin_run();
     show(at_rest());
