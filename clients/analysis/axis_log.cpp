@@ -22,11 +22,11 @@ void AxisLog::take(StepBatch batch) {
     stream_.take(std::move(batch));
 }
 
-void AxisLog::take(const PositionSample& sample) {
-    positions_.take(sample, end_of_steps());
+void AxisLog::take(const RecordedPosition& position) {
+    positions_.take(position, {stream_.last_tick(), stream_.position_steps()});
     if (!position_csv_) { return; }
-    position_csv_->cell(sample.tick.value).cell(sample.position_steps);
-    position_csv_->cell(sample.position_mm).cell(sample.velocity_mm_per_s).end_line();
+    position_csv_->cell(position.tick.value).cell(position.steps);
+    position_csv_->cell(position.mm).cell(position.velocity_mm_per_s).end_line();
 }
 
 void AxisLog::take(const Run& run) {

@@ -16,6 +16,7 @@
 #include "clients/analysis/measure/tick_histogram.hpp"
 #include "clients/analysis/measure/trace.hpp"
 #include "services/record/reading/message_numbers.hpp"
+#include "services/record/reading/positions/recorded_position.hpp"
 #include "services/record/reading/run.hpp"
 #include "services/record/reading/step_stream.hpp"
 
@@ -59,7 +60,9 @@ public:
     std::expected<void, std::string> write_csv(const std::filesystem::path& directory);
 
     void take(StepBatch batch);
-    void take(const PositionSample& sample);
+    /// The configuration of the machine, from its first job on.
+    void set_machine(const MachineConfig& machine) { positions_.set_machine(machine, name_); }
+    void take(const RecordedPosition& position);
     void take(LateFigures late) { late_ = std::move(late); }
     void take_slack(Sample slack_ms) { slack_.add(slack_ms); }
     SampleNumbers& numbers() { return numbers_; }
@@ -83,11 +86,11 @@ public:
     /// to the start velocity, are not in it. nullopt without runs.
     std::optional<double> commanded_steps_per_tick2() const { return commanded_acceleration_; }
     /// PositionLog::unrecorded_steps() at the end of its steps.
-    std::int64_t unrecorded_steps() const { return positions_.unrecorded_steps(end_of_steps()); }
+    std::int64_t unrecorded_steps() const {
+        return positions_.unrecorded_steps({stream_.last_tick(), stream_.position_steps()});
+    }
 
 private:
-    StepsEnd end_of_steps() const { return {stream_.last_tick(), stream_.position_steps()}; }
-
     std::string name_;
     AxisStatistics statistics_;
     Trace trace_;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "services/documents/machine_file.hpp"
 #include "services/documents/names.hpp"
 #include "services/record/reading/log_step.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
@@ -20,16 +21,12 @@ void Sorter::take(const StepMessage& message, LogPlace place) {
 void Sorter::on_position(const axis_position_t& message, LogPlace place) {
     Lane* of = lane(message.machine, message.axis, place);
     if (of == nullptr) { return; }
-    if (!is_countable(message.tick) || !is_countable(message.position_steps) ||
-        !is_countable(message.following_error_steps) || !is_message_number(message.sequence)) {
-        return on_damage(place, "a position with impossible numbers");
-    }
+    const auto position = to_position(message);
+    if (!position) { return on_damage(place, "a position with impossible numbers"); }
     end_.saw(RecordKind::Position, message.machine, message.axis, message.incarnation, message.sequence);
     of->log->numbers().positions.add(message.incarnation, message.sequence);
     listener_.on_position(message);
-    of->log->take(PositionSample{Tick{message.tick}, message.position_steps, message.position_mm,
-                                 message.velocity_mm_per_s, message.incarnation, message.homed != 0,
-                                 message.following_error_steps});
+    of->log->take(*position);
 }
 
 void Sorter::on_health(const axis_health_t& message, LogPlace place) {
@@ -61,6 +58,7 @@ void Sorter::on_job(const RecordedJob& message, LogPlace place) {
     }
     job_numbers_.add(message.coordinator, message.sequence);
     end_.saw(RecordKind::Job, message.machine, "", message.coordinator, message.sequence);
+    set_config(message.config);
     listener_.on_job(message, place);
 }
 
@@ -124,8 +122,17 @@ Sorter::Lane* Sorter::lane(const std::string& machine, const std::string& axis, 
     const std::size_t number = lanes_.size();
     Lane lane{number, std::make_unique<AxisLog>(axis, options_.keeps_curves(), listener_, number)};
     if (options_.csv_dir) { note_error(lane.log->write_csv(*options_.csv_dir)); }
+    if (config_) { lane.log->set_machine(*config_); }
     listener_.on_axis(axis);
     return &(lanes_[axis] = std::move(lane));
+}
+
+void Sorter::set_config(const std::string& text) {
+    if (config_ || text.empty()) { return; }
+    auto parsed = parse_machine(text);
+    if (!parsed) { return; }
+    config_ = std::move(*parsed);
+    for (auto& [name, lane] : lanes_) { lane.log->set_machine(*config_); }
 }
 
 void Sorter::note_error(const std::expected<void, std::string>& result) {

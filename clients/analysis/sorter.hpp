@@ -10,6 +10,7 @@
 
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/measure/sorted_log.hpp"
+#include "core/machine.hpp"
 #include "services/record/reading/log_read.hpp"
 #include "services/record/reading/log_step.hpp"
 #include "services/record/reading/message_numbers.hpp"
@@ -54,11 +55,13 @@ private:
 
     bool is_ours(const std::string& machine);
     Lane* lane(const std::string& machine, const std::string& axis, LogPlace place);
+    void set_config(const std::string& text);
     void note_error(const std::expected<void, std::string>& result);
 
     const AnalysisOptions& options_;
     SortedListener& listener_;
-    std::optional<std::string> machine_;  // the analyzed machine: as chosen, or the first received
+    std::optional<std::string> machine_;   // the analyzed machine: as chosen, or the first received
+    std::optional<MachineConfig> config_;  // of its first job in the log
     std::map<std::string, Lane> lanes_;
     std::map<std::string, std::uint64_t> foreign_;
     std::uint64_t runs_ = 0;

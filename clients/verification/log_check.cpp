@@ -165,15 +165,8 @@ void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace pl
     of->second.note_message(*found->second, message.incarnation, message.utime);
     of->second.records.pass(message.utime);
     check_place(message, of->second);
-    if (!make_follower_ && analysis::is_message_number(message.sequence) && analysis::is_countable(message.tick) &&
-        analysis::is_countable(message.position_steps) && analysis::is_countable(message.following_error_steps)) {
-        found->second->check.take(SeenPosition{.tick = {message.tick},
-                                               .steps = message.position_steps,
-                                               .incarnation = message.incarnation,
-                                               .sequence = message.sequence,
-                                               .is_homed = message.homed != 0,
-                                               .has_fault = message.fault != 0,
-                                               .following_error = message.following_error_steps});
+    if (const auto position = analysis::to_position(message); position && !make_follower_) {
+        found->second->check.take(*position);
     }
     found->second->last.is_moving = message.velocity_steps_per_s != 0;
     if (message.fault == static_cast<std::int32_t>(FaultCode::DeviceLost)) { found->second->check.device_lost(); }

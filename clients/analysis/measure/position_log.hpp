@@ -3,21 +3,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
-#include "core/units.hpp"
+#include "core/machine.hpp"
+#include "services/record/reading/positions/motor_zero.hpp"
 
 namespace lockstep::analysis {
-
-/// One axis's position message.
-struct PositionSample {
-    Tick tick;
-    std::int64_t position_steps = 0;
-    double position_mm = 0;
-    double velocity_mm_per_s = 0;
-    std::int64_t incarnation = 0;  // of the axis's process
-    bool is_homed = false;
-    std::int64_t following_error_steps = 0;
-};
 
 /// Where the recorded steps of an axis end; nullopt without steps.
 struct StepsEnd {
@@ -27,8 +18,9 @@ struct StepsEnd {
 
 class PositionLog {
 public:
+    void set_machine(const MachineConfig& machine, const std::string& motor) { zero_.set_machine(machine, motor); }
     /// `steps`: those recorded so far.
-    void take(const PositionSample& sample, const StepsEnd& steps);
+    void take(const RecordedPosition& sample, const StepsEnd& steps);
     /// A message of steps, of which the newest is at `last`.
     void take_steps(std::optional<Tick> last);
 
@@ -45,17 +37,17 @@ public:
     std::int64_t unrecorded_steps(const StepsEnd& steps) const;
 
 private:
-    std::int64_t unrecorded_at(const PositionSample& sample, const StepsEnd& steps) const;
-    bool has_new_zero(const PositionSample& sample) const;
-    bool takes_over_encoder(const PositionSample& sample) const;
+    std::int64_t unrecorded_at(const RecordedPosition& sample, const StepsEnd& steps) const;
+    bool takes_over_encoder(const RecordedPosition& sample) const;
 
+    MotorZero zero_;
     std::int64_t count_ = 0;
     std::int64_t following_error_ = 0;
     std::int64_t corrected_ = 0;
     std::int64_t first_steps_ = 0;  // of the first position
-    std::optional<PositionSample> last_;
-    std::optional<PositionSample> origin_;    // the first with the newest zero, until steps with it are recorded
-    std::optional<PositionSample> farthest_;  // since the last message of steps
+    std::optional<RecordedPosition> last_;
+    std::optional<RecordedPosition> origin_;    // the first with the newest zero, until steps with it are recorded
+    std::optional<RecordedPosition> farthest_;  // since the last message of steps
     std::optional<double> steps_per_mm_;
 };
 

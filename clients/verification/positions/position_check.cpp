@@ -8,31 +8,18 @@
 
 namespace lockstep::verification {
 
-void PositionCheck::set_machine(const MachineConfig& machine) {
-    assumes_places_ =
-        std::ranges::any_of(machine.axes, [](const AxisConfig& axis) { return row_of(axis.homing.way).runs_programs; });
-}
-
-/// A motor that makes up lost steps takes the place that its encoder shows, which then does not differ any more.
-bool PositionCheck::has_new_zero(const SeenPosition& position) const {
-    if (assumes_places_ && !position.is_homed) { return true; }
-    if (!last_) { return false; }
-    const bool is_other = position.incarnation != last_->incarnation || position.is_homed != last_->is_homed;
-    return is_other || (last_->following_error != 0 && position.following_error == 0);
-}
-
-void PositionCheck::take(const SeenPosition& position) {
+void PositionCheck::take(const analysis::RecordedPosition& position) {
     if (last_ && position.tick < last_->tick) { return wait(position); }
-    if (has_new_zero(position)) { zero_since_ = position.tick; }
+    if (last_ && zero_.differs_between(*last_, position)) { zero_since_ = position.tick; }
     last_ = position;
     wait(position);
 }
 
 /// Positions may overtake each other in the log.
-void PositionCheck::wait(const SeenPosition& position) {
+void PositionCheck::wait(const analysis::RecordedPosition& position) {
     const bool is_known = newest_ && position.steps == newest_->count && waiting_.empty();
     if (is_known || waiting_.size() == kMaxWaiting || (compared_ && position.tick < *compared_)) { return; }
-    waiting_.insert(std::ranges::upper_bound(waiting_, position.tick, {}, &SeenPosition::tick), position);
+    waiting_.insert(std::ranges::upper_bound(waiting_, position.tick, {}, &analysis::RecordedPosition::tick), position);
 }
 
 void PositionCheck::skip() {
@@ -77,7 +64,7 @@ void PositionCheck::pass_before(Tick tick) {
 }
 
 /// Where positions count from another zero between two steps, both zeros are possible.
-std::optional<std::string> PositionCheck::compare(const SeenPosition& position, Ticks reach) const {
+std::optional<std::string> PositionCheck::compare(const analysis::RecordedPosition& position, Ticks reach) const {
     if (!stand_ || recent_.empty() || (zero_since_ && position.tick <= *zero_since_ + reach)) { return std::nullopt; }
     Range allowed{stand_->count, stand_->count};
     for (const Recent& of : recent_) {
@@ -93,14 +80,14 @@ std::optional<std::string> PositionCheck::compare(const SeenPosition& position, 
     return text(position, allowed);
 }
 
-std::string PositionCheck::text(const SeenPosition& position, const Range& allowed) {
+std::string PositionCheck::text(const analysis::RecordedPosition& position, const Range& allowed) {
     return fmt::format("its position at tick {} is recorded as {}, but by its steps it is between {} and {}",
                        position.tick.value, position.steps, allowed.low, allowed.high);
 }
 
 std::optional<std::string> PositionCheck::finish() {
     const bool is_known = newest_ && (!zero_since_ || *zero_since_ <= newest_->from);
-    for (const SeenPosition& position : waiting_) {
+    for (const analysis::RecordedPosition& position : waiting_) {
         if (!is_known || position.tick <= newest_->from || position.steps == newest_->count) { continue; }
         return text(position, {newest_->count, newest_->count});
     }

@@ -10,9 +10,8 @@
 #include <optional>
 #include <string>
 
-#include "clients/verification/positions/seen_position.hpp"
-#include "core/machine.hpp"
 #include "core/units.hpp"
+#include "services/record/reading/positions/motor_zero.hpp"
 #include "services/record/reading/step_stream.hpp"
 
 namespace lockstep::verification {
@@ -22,9 +21,10 @@ public:
     /// The maximum number of positions that wait for the steps around them; more are not compared.
     static constexpr std::size_t kMaxWaiting = 4096;
 
-    /// If axes home by touch, motors that are not homed assume places before moves: only homed ones are compared.
-    void set_machine(const MachineConfig& machine);
-    void take(const SeenPosition& position);
+    /// `zero` must outlive this object.
+    explicit PositionCheck(const analysis::MotorZero& zero) : zero_(zero) {}
+
+    void take(const analysis::RecordedPosition& position);
     /// Steps in order. Returns why a position that waited is wrong; nullopt if all are right. `slot`: how far apart a
     /// position and its time may be.
     std::optional<std::string> take(const analysis::StepBatch& batch, Ticks slot);
@@ -60,19 +60,18 @@ private:
         Tick from;
         std::int64_t count = 0;
     };
-    void wait(const SeenPosition& position);
-    bool has_new_zero(const SeenPosition& position) const;
+    void wait(const analysis::RecordedPosition& position);
     void pass_before(Tick tick);
-    std::optional<std::string> compare(const SeenPosition& position, Ticks reach) const;
-    static std::string text(const SeenPosition& position, const Range& allowed);
+    std::optional<std::string> compare(const analysis::RecordedPosition& position, Ticks reach) const;
+    static std::string text(const analysis::RecordedPosition& position, const Range& allowed);
 
-    bool assumes_places_ = false;
-    std::deque<SeenPosition> waiting_;  // by time
-    std::optional<Tick> compared_;      // the time of the newest one compared
+    const analysis::MotorZero& zero_;
+    std::deque<analysis::RecordedPosition> waiting_;  // by time
+    std::optional<Tick> compared_;                    // the time of the newest one compared
     std::deque<Recent> recent_;
     std::optional<Stand> stand_;   // before the recent steps
     std::optional<Stand> newest_;  // after all steps
-    std::optional<SeenPosition> last_;
+    std::optional<analysis::RecordedPosition> last_;
     std::optional<Tick> zero_since_;  // the newest time from which positions count from another zero
 };
 

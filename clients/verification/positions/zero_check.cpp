@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/kinematics/motors.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep::verification {
@@ -15,15 +14,9 @@ constexpr const char* kMissing = "the log lacks messages that may tell why";
 
 }  // namespace
 
-void ZeroCheck::set_machine(const MachineConfig& machine, const std::string& name) {
-    tick_ns_ = machine.tick_ns;
-    const auto motor = motor_named(machine, name);
-    homes_in_place_ = motor && !row_of(motors_of(machine)[*motor].homing.way).searches;
-}
-
 // ---- Positions -----------------------------------------------------------------------------------------------------
 
-void ZeroCheck::take(const SeenPosition& position) {
+void ZeroCheck::take(const analysis::RecordedPosition& position) {
     processes_.take(position.incarnation);
     if (incarnation_ && processes_.is_older(position.incarnation, *incarnation_)) { return; }
     if (incarnation_ != position.incarnation) {
@@ -38,7 +31,7 @@ void ZeroCheck::take(const SeenPosition& position) {
 
 void ZeroCheck::deliver(std::size_t patience) {
     while (!waiting_.empty() && (waiting_.begin()->first == expected_ || waiting_.size() > patience)) {
-        const SeenPosition position = waiting_.extract(waiting_.begin()).mapped();
+        const analysis::RecordedPosition position = waiting_.extract(waiting_.begin()).mapped();
         pass(position);
         expected_ = position.sequence + 1;
         last_ = position;
@@ -46,24 +39,15 @@ void ZeroCheck::deliver(std::size_t patience) {
     }
 }
 
-/// A process that has ended may have left its last positions unrecorded.
-void ZeroCheck::pass(const SeenPosition& position) {
-    if (!last_) { known_from_ = position.tick; }
-    const Span since{last_ ? last_->tick : position.tick, position.tick};
-    const bool follows = last_ && last_->incarnation == position.incarnation;
-    const bool is_next = follows && last_->sequence + 1 == position.sequence;
-    if (last_ && !is_next) { add(Reason::Kind::Missing, since); }
-    if (!position.is_homed || (last_ && !last_->is_homed)) { return add(Reason::Kind::NotHomed, since); }
-    if (follows && last_->following_error != 0 && last_->following_error != position.following_error) {
-        add(Reason::Kind::Corrected, since, -last_->following_error);
-    }
+void ZeroCheck::pass(const analysis::RecordedPosition& position) {
+    if (!last_) { return void(known_from_ = position.tick); }
+    const Span since{last_->tick, position.tick};
+    if (!position.is_next_after(*last_)) { add(std::nullopt, since); }
+    if (const auto move = zero_.move_between(*last_, position)) { add(move, since); }
 }
 
-void ZeroCheck::add(Reason::Kind kind, Span span, std::int64_t change) {
-    const bool goes_on = !reasons_.empty() && reasons_.back().kind == kind && kind == Reason::Kind::NotHomed &&
-                         reasons_.back().span.to == span.from;
-    if (goes_on) { return void(reasons_.back().span.to = span.to); }
-    reasons_.push_back({kind, span, change});
+void ZeroCheck::add(std::optional<analysis::ZeroMove> move, Span span) {
+    reasons_.push_back({move, span});
     if (reasons_.size() <= kMaxReasons) { return; }
     known_from_ = reasons_.front().span.to;
     reasons_.pop_front();
@@ -80,7 +64,8 @@ void ZeroCheck::take(const analysis::Run& before, const analysis::Run& run,
                             .text = fmt::format("{} counts from {} of its device, but the run before it from {}",
                                                 name_of(run), run.zero_count, before.zero_count),
                             .commanded = commanded(),
-                            .why_unknown = {}});
+                            .why_unknown = {},
+                            .homed_in_place = {}});
         return settle(false);
     }
     const Tick needed = changes_.empty() ? span.from : changes_.front().span.from;
@@ -101,11 +86,17 @@ bool ZeroCheck::is_told(Change& change) const {
     if (!is_known) { change.why_unknown = kMissing; }
     for (const Reason& reason : reasons_) {
         if (!reason.span.meets(change.span)) { continue; }
-        const bool is_correction = reason.kind == Reason::Kind::Corrected;
-        if (reason.kind == Reason::Kind::NotHomed || (is_correction && reason.change == change.change)) { return true; }
-        if (!is_correction) { change.why_unknown = kMissing; }
-        if (change.why_unknown.empty()) {
-            change.why_unknown = fmt::format("the positions show a correction by {:+}", reason.change);
+        using Why = analysis::ZeroMove::Why;
+        if (!reason.move || reason.move->why == Why::OtherProcess) {
+            change.why_unknown = kMissing;
+            continue;
+        }
+        const bool fits = reason.move->change == change.change;
+        const bool is_correction = reason.move->why == Why::LostSteps;
+        if (reason.move->why == Why::NotHomed || (is_correction && fits)) { return true; }
+        if (fits) { change.homed_in_place = reason.span; }
+        if (is_correction && change.why_unknown.empty()) {
+            change.why_unknown = fmt::format("the positions show a correction by {:+}", reason.move->change);
         }
     }
     return false;
@@ -116,10 +107,11 @@ std::vector<ZeroCheck::Change> ZeroCheck::finish(const HomingJobs& homings, bool
     settle(true);
     const auto us = [&](Tick tick) { return utime_of(tick, tick_ns_.value_or(1000)); };
     std::erase_if(untold_, [&](const Change& change) {
-        return homes_in_place_ && homings.any_in(us(change.span.from), us(change.span.to));
+        const auto& homed = change.homed_in_place;
+        return homed && homings.any_in(us(homed->from), us(homed->to));
     });
     for (Change& change : untold_) {
-        if (!tick_ns_ || (homes_in_place_ && lacks_jobs)) { change.why_unknown = kMissing; }
+        if (!tick_ns_ || (change.homed_in_place && lacks_jobs)) { change.why_unknown = kMissing; }
     }
     return std::move(untold_);
 }

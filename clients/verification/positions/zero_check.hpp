@@ -1,15 +1,7 @@
-// Checks that the zero of a motor moves between its runs only where the record tells why. Machine coordinates are the
-// device's count minus the zero of the run.
-//
-// | why the zero moves | what the record has |
-// |---|---|
-// | homing by switches or by touch, a process that does not know its position | positions that are not homed |
-// | homing in place | a job of homing; the positions are homed before and after it |
-// | lost steps are made up | a following error, by which the zero moves back, and then another one |
+// Checks that the zero of a motor moves between its runs only where the record tells why: its positions
+// (services/record/reading/positions/motor_zero.hpp), and a job of homing for a homing in place.
 //
 // An encoder may show other lost steps between two positions. Then it is unknown whether a correction is the right one.
-//
-// Nothing else moves it: a kept position, a takeover, a hold, a jog and a touch of a probe leave it where it is.
 #pragma once
 
 #include <cstddef>
@@ -22,9 +14,9 @@
 #include <vector>
 
 #include "clients/verification/positions/homing_jobs.hpp"
-#include "clients/verification/positions/seen_position.hpp"
 #include "clients/verification/process_order.hpp"
 #include "core/machine.hpp"
+#include "services/record/reading/positions/motor_zero.hpp"
 #include "services/record/reading/run.hpp"
 
 namespace lockstep::verification {
@@ -47,13 +39,17 @@ public:
         Span span;
         std::int64_t change = 0;
         std::string text;
-        std::string commanded;    // in the second run
-        std::string why_unknown;  // empty if the log has all that could tell a reason
+        std::string commanded;               // in the second run
+        std::string why_unknown;             // empty if the log has all that could tell a reason
+        std::optional<Span> homed_in_place;  // then, if there was a job of homing
     };
 
+    /// `zero` must outlive this object.
+    explicit ZeroCheck(const analysis::MotorZero& zero) : zero_(zero) {}
+
     /// The machine is known from its first job on.
-    void set_machine(const MachineConfig& machine, const std::string& motor);
-    void take(const SeenPosition& position);
+    void set_machine(const MachineConfig& machine) { tick_ns_ = machine.tick_ns; }
+    void take(const analysis::RecordedPosition& position);
     /// Two runs of which the second is the next one of the axis. `commanded`: in the second one.
     void take(const analysis::Run& before, const analysis::Run& run, const std::function<std::string()>& commanded);
     /// Call once, at the end of the log. Returns the changes for which it tells no reason. `lacks_jobs`: the log lacks
@@ -61,31 +57,25 @@ public:
     std::vector<Change> finish(const HomingJobs& homings, bool lacks_jobs);
 
 private:
-    /// What positions tell about the zero in a span.
+    /// What two positions tell about the zero.
     struct Reason {
-        enum class Kind : std::uint8_t {
-            NotHomed,   // it may move anywhere
-            Corrected,  // it may move by `change`
-            Missing,    // positions are not in the log
-        };
-        Kind kind = Kind::Missing;
+        std::optional<analysis::ZeroMove> move;  // nullopt: positions between them are not in the log
         Span span;
-        std::int64_t change = 0;
     };
 
     void deliver(std::size_t patience);
-    void pass(const SeenPosition& position);
-    void add(Reason::Kind kind, Span span, std::int64_t change = 0);
+    void pass(const analysis::RecordedPosition& position);
+    void add(std::optional<analysis::ZeroMove> move, Span span);
     void settle(bool log_ended);
     bool is_told(Change& change) const;
 
+    const analysis::MotorZero& zero_;
     std::optional<std::int64_t> tick_ns_;  // of the machine
-    bool homes_in_place_ = false;
     ProcessOrder processes_;
-    std::optional<std::int64_t> incarnation_;       // of the newest process
-    std::map<std::int64_t, SeenPosition> waiting_;  // its positions, by number
-    std::int64_t expected_ = 0;                     // the number of its next position
-    std::optional<SeenPosition> last_;
+    std::optional<std::int64_t> incarnation_;                     // of the newest process
+    std::map<std::int64_t, analysis::RecordedPosition> waiting_;  // its positions, by number
+    std::int64_t expected_ = 0;                                   // the number of its next position
+    std::optional<analysis::RecordedPosition> last_;
     std::deque<Reason> reasons_;      // in order
     std::optional<Tick> known_from_;  // earlier reasons are forgotten, or before the log
     std::deque<Change> changes_;      // for which later positions are needed

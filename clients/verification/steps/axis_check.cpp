@@ -140,12 +140,12 @@ AxisCheck::AxisCheck(std::string name, Findings& findings, AxisFindings::Command
 
 void AxisCheck::set_machine(const MachineConfig& machine) {
     clocks_.set_machine(machine);
-    positions_.set_machine(machine);
-    zeros_.set_machine(machine, findings_.axis());
+    zero_.set_machine(machine, findings_.axis());
+    zeros_.set_machine(machine);
     slot_ = machine.slot_ticks();
 }
 
-void AxisCheck::take(const SeenPosition& position) {
+void AxisCheck::take(const analysis::RecordedPosition& position) {
     zeros_.take(position);
     if (!position.has_fault) { positions_.take(position); }
 }

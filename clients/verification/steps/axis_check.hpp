@@ -26,6 +26,7 @@
 #include "clients/verification/steps/log_beginning.hpp"
 #include "clients/verification/steps/record_gaps.hpp"
 #include "clients/verification/steps/waiting_steps.hpp"
+#include "services/record/reading/positions/motor_zero.hpp"
 #include "services/record/reading/step_stream.hpp"
 
 namespace lockstep::verification {
@@ -53,7 +54,7 @@ public:
     AxisCheck& operator=(const AxisCheck&) = delete;
 
     void take(analysis::StepBatch batch) { stream_.take(std::move(batch)); }
-    void take(const SeenPosition& position);
+    void take(const analysis::RecordedPosition& position);
     /// The machine's file is known from its first job on.
     void set_machine(const MachineConfig& machine);
     /// Runs must come in the order of their numbers.
@@ -86,8 +87,9 @@ private:
     ComparedRun run_;
     analysis::StepStream stream_{{this}};
     ClockCheck clocks_;
-    PositionCheck positions_;
-    ZeroCheck zeros_;
+    analysis::MotorZero zero_;
+    PositionCheck positions_{zero_};
+    ZeroCheck zeros_{zero_};
     Ticks slot_{100'000};  // before the machine is known
     WaitingSteps waiting_;
     struct NextRun {

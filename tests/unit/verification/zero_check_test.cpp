@@ -18,21 +18,36 @@ constexpr std::int64_t kProcess = 7;
 /// A run ends at rest in slot 10 and the next one begins in slot 20. Its zero is 20 steps further.
 class MovedZero : public testing::Test {
 protected:
-    MovedZero() { check.set_machine(test::example("two-axis"), "X"); }
+    MovedZero() { set_way(HomingWay::BySwitch); }
 
-    static SeenPosition at(std::int64_t slot) {
+    void set_way(HomingWay way) {
+        MachineSetup machine = test::example("two-axis");
+        machine.axes[0].homing.way = way;
+        zero.set_machine(machine, "X");
+        check.set_machine(machine);
+        park_steps = to_steps(machine.axes[0], machine.axes[0].homing.park_mm);
+    }
+    static analysis::RecordedPosition at(std::int64_t slot) {
         return {.tick = Tick{slot * kSlot}, .incarnation = kProcess, .sequence = slot, .is_homed = true};
     }
     void take_from(std::int64_t from, std::int64_t to) {
         for (std::int64_t slot = from; slot < to; ++slot) { check.take(at(slot)); }
     }
+    /// The motor stands `away` steps from its park.
+    void take_near_park(std::int64_t from, std::int64_t to, std::int64_t away) {
+        for (std::int64_t slot = from; slot < to; ++slot) {
+            analysis::RecordedPosition position = at(slot);
+            position.steps = park_steps + away;
+            check.take(position);
+        }
+    }
     void take_unhomed(std::int64_t slot) {
-        SeenPosition position = at(slot);
+        analysis::RecordedPosition position = at(slot);
         position.is_homed = false;
         check.take(position);
     }
     void take_lost(std::int64_t slot, std::int64_t following_error) {
-        SeenPosition position = at(slot);
+        analysis::RecordedPosition position = at(slot);
         position.following_error = following_error;
         check.take(position);
     }
@@ -64,8 +79,10 @@ protected:
         return all;
     }
 
-    ZeroCheck check;
+    analysis::MotorZero zero;
+    ZeroCheck check{zero};
     HomingJobs homings;
+    std::int64_t park_steps = 0;
 };
 
 TEST_F(MovedZero, WithoutAReasonIsADifference) {
@@ -110,32 +127,36 @@ TEST_F(MovedZero, OfAMotorThatSearchesItsSwitchNeedsMoreThanAJobOfHoming) {
     EXPECT_THAT(found(), ElementsAre(kWithoutReason));
 }
 
-TEST_F(MovedZero, MayBeOfAHomingInPlace) {
-    MachineSetup machine = test::example("two-axis");
-    machine.axes[0].homing.way = HomingWay::InPlace;
-    check.set_machine(machine, "X");
-    take_from(0, 60);
-    take_runs(10, 20);
+/// It homes in slot 13, so its place changes from 20 steps beyond its park to its park.
+class MovedZeroInPlace : public MovedZero {
+protected:
+    MovedZeroInPlace() {
+        set_way(HomingWay::InPlace);
+        take_near_park(0, 13, 20);
+        take_runs();
+    }
+};
+
+TEST_F(MovedZeroInPlace, IsOfAHoming) {
+    take_near_park(13, 60, 0);
     take_homing(12, 14);
     EXPECT_THAT(found(), IsEmpty());
 }
 
-TEST_F(MovedZero, OfAMotorThatHomesInPlaceNeedsAJobOfHoming) {
-    MachineSetup machine = test::example("two-axis");
-    machine.axes[0].homing.way = HomingWay::InPlace;
-    check.set_machine(machine, "X");
-    take_from(0, 60);
-    take_runs(10, 20);
+TEST_F(MovedZeroInPlace, NeedsAJobOfHoming) {
+    take_near_park(13, 60, 0);
     take_homing(22, 24);
     EXPECT_THAT(found(), ElementsAre(kWithoutReason));
 }
 
-TEST_F(MovedZero, OfAMotorThatHomesInPlaceIsUnknownWithoutTheJobs) {
-    MachineSetup machine = test::example("two-axis");
-    machine.axes[0].homing.way = HomingWay::InPlace;
-    check.set_machine(machine, "X");
-    take_from(0, 30);
-    take_runs();
+TEST_F(MovedZeroInPlace, NeedsAJumpToThePark) {
+    take_near_park(13, 60, 1);
+    take_homing(12, 14);
+    EXPECT_THAT(found(), ElementsAre(kWithoutReason));
+}
+
+TEST_F(MovedZeroInPlace, IsUnknownWithoutTheJobs) {
+    take_near_park(13, 60, 0);
     EXPECT_THAT(found(true), ElementsAre(kLacksMessages));
 }
 
@@ -178,7 +199,7 @@ TEST_F(MovedZero, IsUnknownBeforeTheFirstPositionAndBehindTheLastOne) {
 TEST_F(MovedZero, IsUnknownInTheNextProcess) {
     take_from(0, 15);
     for (std::int64_t slot = 15; slot < 30; ++slot) {
-        SeenPosition position = at(slot);
+        analysis::RecordedPosition position = at(slot);
         position.incarnation = kProcess + 1;
         position.sequence -= 15;
         check.take(position);
