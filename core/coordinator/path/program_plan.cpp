@@ -118,10 +118,12 @@ std::expected<AxisCounts, PlanError> ProgramPlanner::target(const ProgramMove& m
         const double mm = move.target_mm[i];
         const double steps = mm * steps_per_mm_[axis];
         if (!(std::abs(steps) < kMaxSteps)) { return std::unexpected(too_far(machine_.axes[axis], mm, line)); }
-        to[axis] = whole_steps(steps);
-        if (!is_within_travel(axis, to[axis])) {
+        const std::int64_t count = whole_steps(steps);
+        const bool may_be_outside = count < limits_[axis].min_steps || count > limits_[axis].max_steps;
+        if (may_be_outside && !is_within_travel(axis, count)) {
             return std::unexpected(outside_travel(machine_.axes[axis], mm, line));
         }
+        to[axis] = count;
     }
     return within_travel(to, limits_);
 }

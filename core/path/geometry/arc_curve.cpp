@@ -64,7 +64,8 @@ void ArcCurve::place(const PathSetup& setup, ArcDirection d, double done, PlaceV
     const double share = done / sweep_;
     const double radius = radius_begin_ + (radius_end_ - radius_begin_) * share;
     const double y = shape_.is_clockwise ? -d.y : d.y;
-    for (const AxisIndex i : moving_) {
+    const AxisSet plane{AxisIndex{shape_.first}, AxisIndex{shape_.second}};
+    for (const AxisIndex i : moving_ - plane) {
         at.begin()[i] = from_.begin()[i] + (to_.begin()[i] - from_.begin()[i]) * share;
     }
     at[shape_.first] = (shape_.centre_first_mm + radius * d.x) * setup.steps_per_mm[shape_.first];

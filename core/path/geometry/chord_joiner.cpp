@@ -49,6 +49,8 @@ double ChordJoiner::step_to(const PlaceVector& from, const PlaceVector& to) {
 
 void ChordJoiner::finish(const PlaceVector& end, PathTrail& out) {
     const std::size_t last = points_.size() - 1;
+    const bool has_begun_there = last == 0 && moving_.empty() && start_at_ == end;
+    if (has_begun_there) { return; }
     if (last > start_) {
         const double length = step_to(points_[last - 1].at, end);
         if (length >= kLeast_mm) {

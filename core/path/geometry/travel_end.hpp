@@ -31,15 +31,16 @@ inline void keep_within_travel(const PathSetup& setup, Quadratic& piece) {
     };
     constexpr double kCertain = 2 - 1e-9;  // 2, with room for rounding
     for (const AxisIndex i : axis_indices(setup.axes())) {
-        if (piece.bend[i] == 0) { continue; }
+        double& bend = piece.bend.begin()[i];
+        if (bend == 0) { continue; }
         const TravelEnds travel = travel_ends_of(setup.limits_of_axis(i));
-        const double begin = piece.from[i];
+        const double begin = piece.from.begin()[i];
         const double end = piece.place(i, piece.length);
         const double up = travel.greatest - begin + travel.greatest - end;
         const double down = begin - travel.least + end - travel.least;
-        if (std::abs(piece.bend[i]) * piece.length * piece.length < kCertain * std::min(up, down)) { continue; }
-        piece.bend[i] = std::clamp(piece.bend[i], -most(travel.greatest - begin, travel.greatest - end),
-                                   most(begin - travel.least, end - travel.least));
+        if (std::abs(bend) * piece.length * piece.length < kCertain * std::min(up, down)) { continue; }
+        bend = std::clamp(bend, -most(travel.greatest - begin, travel.greatest - end),
+                          most(begin - travel.least, end - travel.least));
     }
 }
 

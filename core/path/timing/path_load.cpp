@@ -9,6 +9,13 @@ namespace {
 
 void raise(double& peak, double value) { peak = std::max(peak, value); }
 
+/// The whole step nearest to a place of less than 2^52 steps, without a call of std::floor.
+std::int64_t nearest_count(double place) {
+    const double above = place + 0.5;
+    const auto count = static_cast<std::int64_t>(above);
+    return count - (above < static_cast<double>(count) ? 1 : 0);
+}
+
 }  // namespace
 
 PathLoad::PathLoad(std::span<const std::int64_t> at) : counts_(at.begin(), at.end()), slopes_(at.size()) {
@@ -18,7 +25,7 @@ PathLoad::PathLoad(std::span<const std::int64_t> at) : counts_(at.begin(), at.en
 void PathLoad::begin() { std::ranges::fill(slopes_, 0.0); }
 
 void PathLoad::note_place(RowIndex row, double place) {
-    const auto count = static_cast<std::int64_t>(std::floor(place + 0.5));
+    const std::int64_t count = nearest_count(place);
     AxisLoad& load = axes_[row];
     load.steps += std::abs(count - counts_[row]);
     load.least = std::min(load.least, count);
@@ -72,27 +79,28 @@ void PathLoad::note_straight(const PassedInterval& passed) {
 }
 
 /// The accelerations at both ends of the interval, and at its middle with the bend that the joints charge
-/// (core/path/interval.hpp has the formulas).
+/// (core/path/interval.hpp has the formulas, with w1 - w0 as `change` here).
 void PathLoad::note_curved(const PassedInterval& passed) {
     const double d = passed.part.length();
     if (d <= 0) { return; }
     const double middle = (passed.part.from + passed.part.to) / 2;
     const double w0 = passed.v0 * passed.v0;
     const double w1 = passed.v1 * passed.v1;
+    const double change = w1 - w0;
     const double half_per_mm = 1 / (2 * d);
     for (const RowIndex i : passed.piece.rows& RowSet::first(axes_.size())) {
         const double slope = passed.piece.shape.slope_at(i, middle);
         const double bend = passed.piece.shape.bend.begin()[i] * d;
-        const double begin = std::abs(slope - bend / 2) * passed.v0;
-        const double end = std::abs(slope + bend / 2) * passed.v1;
-        raise(axes_[i].peak_velocity, std::max(begin, end));
-        double change = std::max(std::abs(w1 * (slope - bend / 2) - w0 * (slope - 2.5 * bend)),
-                                 std::abs(w1 * (slope + 2.5 * bend) - w0 * (slope + bend / 2)));
+        const double begin = slope - bend / 2;
+        const double end = slope + bend / 2;
+        double most = std::max(std::abs(change * begin + 2 * w0 * bend), std::abs(change * end + 2 * w1 * bend));
         if (passed.piece.is_charged) {
             const double charged = passed.piece.charged.begin()[i] * d;
-            raise(change, std::abs(w1 * (slope + charged) - w0 * (slope - charged)));
+            raise(most, std::abs(change * slope + (w0 + w1) * charged));
         }
-        raise(axes_[i].peak_acceleration, change * half_per_mm);
+        AxisLoad& load = axes_.begin()[i];
+        raise(load.peak_velocity, std::max(std::abs(begin) * passed.v0, std::abs(end) * passed.v1));
+        raise(load.peak_acceleration, most * half_per_mm);
     }
 }
 
