@@ -17,6 +17,6 @@ constexpr Flat operator*(Flat a, double factor) { return {a.x * factor, a.y * fa
 constexpr double dot(Flat a, Flat b) { return a.x * b.x + a.y * b.y; }
 constexpr double cross(Flat a, Flat b) { return a.x * b.y - a.y * b.x; }
 constexpr Flat left_of(Flat a) { return {-a.y, a.x}; }
-inline double length_of(Flat a) { return std::hypot(a.x, a.y); }
+inline double length_of(Flat a) { return std::sqrt(dot(a, a)); }
 
 }  // namespace lockstep::gcode

@@ -170,7 +170,7 @@ void ProgramBuilder::fail(const std::string& message) {
 double ProgramBuilder::within_travel(std::size_t i, double mm) {
     const GcodeAxis& axis = setup_.axes[i];
     const double nearest = std::clamp(mm, axis.min_mm, axis.max_mm);
-    if (std::abs(mm - nearest) <= kTravelTolerance_mm) { return nearest; }
+    if (std::abs(mm - nearest) <= travel_tolerance_mm_) { return nearest; }
     const std::string unit(unit_of(axis.name));
     fail(i, axis.name + " to " + number_text(mm) + " " + unit + ", which is outside its travel of " +
                 number_text(axis.min_mm) + " to " + number_text(axis.max_mm) + " " + unit +
@@ -207,7 +207,10 @@ void ProgramBuilder::spline(const Spline& spline) {
         return cut(spline, from, setup_.chord_tolerance_mm,
                    [&](const Point& target) { move(target, spline.feed, false); });
     }
-    cut_into_arcs(spline, from, [&](const Action& part) { take(part, line_, *interpreter_); });
+    const double tolerance_mm = spline_tolerance_mm(setup_.chord_tolerance_mm);
+    travel_tolerance_mm_ = std::max(tolerance_mm, kTravelTolerance_mm);
+    cut_into_arcs(spline, from, tolerance_mm, [&](const Action& part) { take(part, line_, *interpreter_); });
+    travel_tolerance_mm_ = kTravelTolerance_mm;
 }
 
 /// An arc of more chords than a program may have blocks is refused before it is cut.
@@ -225,7 +228,8 @@ void ProgramBuilder::arc_as_chords(const Arc& arc) {
 void ProgramBuilder::arc(const Arc& arc) {
     const auto shape = shape_of(arc);
     if (!shape) { return arc_as_chords(arc); }
-    std::vector<double> to = position_;
+    std::vector<double>& to = next_position_;
+    to = position_;
     for (std::size_t i = 0; i < to.size(); ++i) {
         if (!places_[i] || arc.target[*places_[i]] == at_[*places_[i]]) { continue; }
         to[i] = within_travel(i, arc.target[*places_[i]]);
@@ -243,7 +247,7 @@ void ProgramBuilder::arc(const Arc& arc) {
     }
     append(move_to(to, arc.feed, shape));
     at_ = arc.target;
-    position_ = std::move(to);
+    position_.swap(to);
 }
 
 void ProgramBuilder::move(const Point& target, double feed, bool rapid) {

@@ -108,12 +108,13 @@ private:
     std::vector<GcodeNote> notes_;
     std::set<std::string> noted_;
     std::vector<double> position_;
-    std::vector<double> next_position_;  // move: keeps its memory
+    std::vector<double> next_position_;  // move, arc: keeps its memory
     std::vector<double> probed_from_;    // where the last probing move began
     Point at_{};
     std::vector<GcodeError> errors_;
     bool is_full_ = false;
     int line_ = 0;
+    double travel_tolerance_mm_ = kTravelTolerance_mm;  // arcs may be as far outside as they deviate from their spline
     std::set<std::size_t> outside_;      // axes named in this line's errors; their number: the height map
     std::uint32_t events_together_ = 0;  // events since the last block of another kind
     std::string message_;                // the last one since the last pause

@@ -36,7 +36,8 @@ public:
         } else if (const auto* arc = std::get_if<gcode::Arc>(&action)) {
             take_arc(*arc);
         } else if (const auto* spline = std::get_if<gcode::Spline>(&action)) {
-            gcode::cut_into_arcs(*spline, Point(at_), [&](const gcode::Action& part) { take(part, line); });
+            gcode::cut_into_arcs(*spline, Point(at_), gcode::spline_tolerance_mm(setup_.chord_tolerance_mm),
+                                 [&](const gcode::Action& part) { take(part, line); });
         } else if (std::holds_alternative<gcode::Dwell>(action)) {
             add("dwell", at_, 0);
         }

@@ -11,7 +11,8 @@
 namespace lockstep::gcode {
 namespace {
 
-constexpr int kMostHalvings = 14;  // of half a span, at most
+constexpr int kMostHalvings = 14;      // of half a span, at most
+constexpr double kStraight_mm = 1e-6;  // a curve that is closer to its chord is straight: no arc has to be so flat
 
 Flat xy_of(const Vector& at) { return {at[0], at[1]}; }
 Flat unit(Flat a) { return dot(a, a) > 0 ? a * (1 / length_of(a)) : Flat{}; }
@@ -31,7 +32,7 @@ public:
         const double along = dot(from.direction, chord);
         const double aside = cross(from.direction, chord);  // above 0: to the left
         if (!(along > 0)) { return std::nullopt; }
-        if (std::abs(aside) / 4 <= kSplineArcs_mm / 8) { return line(from.at, to); }  // the arc's height
+        if (std::abs(aside) / 4 <= kStraight_mm / 8) { return line(from.at, to); }  // the arc's height
         const double radius = dot(chord, chord) / (2 * aside);
         return FlatArc{from.at, to, from.at + left_of(from.direction) * radius, radius};
     }
@@ -79,8 +80,14 @@ Spot meeting(const Spot& begin, const Spot& end) {
 
 class SplineCut {
 public:
-    SplineCut(const Spline& spline, const Point& from, const std::function<void(const Action&)>& take)
-        : spline_(spline), curve_(spline), take_(take), at_(spline.target), begin_{from[0], from[1]} {}
+    SplineCut(const Spline& spline, const Point& from, double tolerance_mm,
+              const std::function<void(const Action&)>& take)
+        : spline_(spline),
+          curve_(spline),
+          near_mm_(std::max(tolerance_mm, kStraight_mm) / 2),
+          take_(take),
+          at_(spline.target),
+          begin_{from[0], from[1]} {}
 
     void cut() {
         for (span_ = 0; span_ < curve_.spans(); ++span_) {
@@ -107,7 +114,7 @@ private:
         if (halvings == 0) { return add(line); }
         const double middle = (part.low + part.high) / 2;
         const Spot half_way = spot(middle);
-        if (is_near(part, half_way.at, line, line)) { return add(line); }
+        if (is_near(part, half_way.at, line, line, kStraight_mm / 2)) { return add(line); }
         if (try_arcs(part, half_way.at)) { return; }
         halve({part.begin, half_way, part.low, middle}, halvings - 1);
         halve({half_way, part.end, middle, part.high}, halvings - 1);
@@ -124,16 +131,16 @@ private:
         const Spot middle = meeting(part.begin, part.end);
         const auto first = FlatArc::from_to(part.begin, middle.at);
         const auto second = FlatArc::from_to(middle, part.end.at);
-        if (!first || !second || !is_near(part, half_way, *first, *second)) { return false; }
+        if (!first || !second || !is_near(part, half_way, *first, *second, near_mm_)) { return false; }
         add(*first);
         add(*second);
         return true;
     }
 
     /// Checks seven places between the ends. Arcs that are too long are mostly too far from the first one.
-    bool is_near(const Part& part, Flat half_way, const FlatArc& first, const FlatArc& second) const {
+    bool is_near(const Part& part, Flat half_way, const FlatArc& first, const FlatArc& second, double most_mm) const {
         const auto is_near_to = [&](Flat place) {
-            return first.distance(place) <= kSplineArcs_mm / 2 || second.distance(place) <= kSplineArcs_mm / 2;
+            return first.distance(place) <= most_mm || second.distance(place) <= most_mm;
         };
         constexpr std::array kEighths{2.0, 6.0, 1.0, 3.0, 5.0, 7.0};
         return is_near_to(half_way) && std::ranges::all_of(kEighths, [&](double eighths) {
@@ -150,6 +157,7 @@ private:
 
     const Spline& spline_;
     SplineCurve curve_;
+    double near_mm_;  // half of the tolerance, at the places that are checked
     const std::function<void(const Action&)>& take_;
     Point at_;
     Flat begin_;  // of the remaining part
@@ -158,8 +166,9 @@ private:
 
 }  // namespace
 
-void cut_into_arcs(const Spline& spline, const Point& from, const std::function<void(const Action&)>& take) {
-    SplineCut(spline, from, take).cut();
+void cut_into_arcs(const Spline& spline, const Point& from, double tolerance_mm,
+                   const std::function<void(const Action&)>& take) {
+    SplineCut(spline, from, tolerance_mm, take).cut();
 }
 
 }  // namespace lockstep::gcode

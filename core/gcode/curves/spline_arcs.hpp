@@ -6,16 +6,21 @@
 // part's length.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 
 #include "core/gcode/motion.hpp"
 
 namespace lockstep::gcode {
 
-/// The greatest deviation of arcs and straight moves from the curve, in mm. At most kTravelTolerance_mm (gcode.hpp).
-inline constexpr double kSplineArcs_mm = 1e-6;
+/// The greatest deviation of arcs from their spline, if chords of curves may deviate by `chord_tolerance_mm`: half a
+/// step. A tenth of a step is as much as the planner's pieces of an arc deviate from it. Where steps are long it is
+/// less: seven places of a part do not show greater deviations of all splines.
+constexpr double spline_tolerance_mm(double chord_tolerance_mm) { return std::min(chord_tolerance_mm / 5, 0.00125); }
 
-/// Emits arcs, and straight moves where the curve is straight, in order. The last ends at the spline's own target.
-void cut_into_arcs(const Spline& spline, const Point& from, const std::function<void(const Action&)>& take);
+/// Emits arcs, and straight moves where the curve is straight, in order. The last ends at the spline's own target. They
+/// deviate from the curve by at most `tolerance_mm`.
+void cut_into_arcs(const Spline& spline, const Point& from, double tolerance_mm,
+                   const std::function<void(const Action&)>& take);
 
 }  // namespace lockstep::gcode

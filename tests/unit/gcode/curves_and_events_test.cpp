@@ -89,6 +89,16 @@ TEST(GcodeCurves, ASplineBecomesArcsThatMeetInTheSameDirection) {
     EXPECT_NEAR(heading, -std::atan2(30, 15), 1e-6);
 }
 
+/// The number of arcs increases with the cube root of the inverse tolerance: here by a factor of 10.
+TEST(GcodeCurves, ASplineBecomesFewerArcsWhereStepsAreLonger) {
+    GcodeSetup fine = all_taken();
+    fine.chord_tolerance_mm = 1e-5;
+    GcodeSetup coarse = all_taken();
+    coarse.chord_tolerance_mm = 1e-2;
+    const std::string_view text = "G0 X10 Y10\nG5 X60 Y10 I15 J30 P-15 Q30 F600\n";
+    EXPECT_GT(blocks_of(text, fine).size(), 5 * blocks_of(text, coarse).size());
+}
+
 TEST(GcodeCurves, AStraightSplineIsStraightMoves) {
     const auto blocks = blocks_of("G5 X30 Y30 I10 J10 P-10 Q-10 F600\n");
     ASSERT_EQ(blocks.size(), 2U);
