@@ -1,8 +1,10 @@
-// A Raspberry Pi Pico that runs a firmware in virtual time, for another process at the other end of its line.
+// A Raspberry Pi Pico that runs a firmware in virtual time, for another process at the other end of its line. One process
+// runs one board after another, so that Node compiles the emulator's code only once.
 //
 // Usage: node board_emulator.mjs FIRMWARE.uf2
 //
-// Request, on standard input, little-endian, of u32: the microsecond until which to run, the levels of the input pins (pin
+// Request, on standard input, little-endian, of u32: the microsecond until which to run (0: another board, just powered
+// up, takes the place of the last one), the levels of the input pins (pin
 // n is bit n), what happens at the USB plug (PLUG), how many bytes arrive at the board from now on by its UART and by USB,
 // these bytes. Answer: how many bytes the board has sent by its UART and by USB, how many edges its pins had, for how many
 // cycles the processor was in interrupts, what the board is (STATE), the bytes, the edges: processor cycle (f64), pin (u8),
@@ -260,9 +262,11 @@ function write(bytes) {
   for (let at = 0; at < bytes.length;) at += fs.writeSync(1, bytes, at);
 }
 
-const board = new Board(fs.readFileSync(process.argv[2]));
+const firmware = fs.readFileSync(process.argv[2]);
+let board = null;
 for (let request = read(20); request !== null; request = read(20)) {
   const [until, levels, plug, uartBytes, usbBytes] = Array.from({ length: 5 }, (_, n) => request.readUInt32LE(4 * n));
+  if (until === 0) board = new Board(firmware);
   board.setInputs(levels);
   board.receive(read(uartBytes));
   board.plug(plug, read(usbBytes));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,13 @@ struct PinEdge {
 };
 inline constexpr std::uint8_t kStartPin = 255;
 
+class EmulatorProcess;
+
+/// A board that has just been powered up. The emulator of an earlier board, if it is free, runs this one too, because
+/// Node has compiled the code there.
 class EmulatedBoard {
 public:
-    /// emulator: the script. firmware: a .uf2 file.
+    /// emulator: the script. firmware: a .uf2 file. Both are the same for all boards.
     EmulatedBoard(const std::string& emulator, const std::string& firmware);
     ~EmulatedBoard();
     EmulatedBoard(const EmulatedBoard&) = delete;
@@ -45,12 +50,7 @@ public:
     Answer run(const Request& request);
 
 private:
-    void write(const void* bytes, std::size_t size);
-    void read(void* bytes, std::size_t size);
-
-    int process_ = 0;
-    int requests_ = 0;
-    int answers_ = 0;
+    std::unique_ptr<EmulatorProcess> process_;  // none after it has ended
 };
 
 }  // namespace lockstep::testing
