@@ -98,7 +98,7 @@ void PathLoad::note_curved(const PassedInterval& passed) {
             const double charged = passed.piece.charged.begin()[i] * d;
             raise(most, std::abs(change * slope + (w0 + w1) * charged));
         }
-        AxisLoad& load = axes_.begin()[i];
+        AxisLoad& load = axes_.data()[i];
         raise(load.peak_velocity, std::max(std::abs(begin) * passed.v0, std::abs(end) * passed.v1));
         raise(load.peak_acceleration, most * half_per_mm);
     }
