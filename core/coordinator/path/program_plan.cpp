@@ -47,11 +47,12 @@ double length_of_arc(const ProgramMove& arc, const AxisCounts& from, std::span<c
     return length_mm(arc, {from_mm.begin(), from_mm.size()});
 }
 
-/// The only axis that is elsewhere; nullopt if there is none, or several.
-std::optional<AxisIndex> only_difference(const AxisCounts& from, const AxisCounts& to) {
+/// The only axis that is elsewhere; nullopt if there is none, or several. An axis that rests a little beyond its
+/// travel, because its motors rest on whole steps, returns with any move (within_travel); that does not count.
+std::optional<AxisIndex> only_difference(const AxisCounts& from, const AxisCounts& to, const Kinematics& kinematics) {
     std::optional<AxisIndex> only;
     for (const AxisIndex i : axis_indices(from.size())) {
-        if (from[i] == to[i]) { continue; }
+        if (std::abs(to[i] - from[i]) <= kinematics.rest_steps(i)) { continue; }
         if (only) { return std::nullopt; }
         only = i;
     }
@@ -85,7 +86,7 @@ TouchInputs ProgramPlanner::touch_inputs(const Probe& probe, const Block* move, 
     const auto* const straight = move != nullptr ? std::get_if<ProgramMove>(&move->action) : nullptr;
     AxisCounts to = from;
     if (straight != nullptr && moves(*move, axes, to)) {
-        const auto axis = only_difference(from, to);
+        const auto axis = only_difference(from, to, kinematics_);
         touch.ceases = axis && ceases_at_touch(probe, *straight, *axis, machine_, kinematics_);
     }
     for (const InputConfig* const input : inputs_of_probe(machine_.inputs, probe.input)) {

@@ -35,12 +35,14 @@ private:
         }
     }
 
-    /// A motor whose pulses may cease leaves no other motor on its path.
+    /// A motor whose pulses may cease leaves no other motor on its path. An axis that rests beyond its travel, because
+    /// its motors rest on whole steps, returns with any move.
     void check_moves_alone(std::size_t motor, const std::map<FrameNumber, SentFrame>& frames) {
         for (const auto& [number, frame] : frames) {
             for (std::size_t i = 0; i < frame.shares.size(); ++i) {
                 const Share& share = frame.shares[i];
-                const bool moves = share.from != share.to || share.to != share.rest;
+                const Displacement way = share.rest - frames.begin()->second.shares[i].from;
+                const bool moves = way > Displacement::steps(2) || way < Displacement::steps(-2);
                 if (i != motor && moves) { object(i, frame.start, "moves, while another motor's pulses may cease"); }
             }
         }
