@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "core/coordinator/program/probe_check.hpp"
-#include "tests/unit/virtual/rig.hpp"
+#include "tests/unit/virtual/devices/probing_rig.hpp"
 
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kProbe = 0;
 constexpr double kFeed_mm_s = 10;
 
 MachineConfig machine_with_probe() {
@@ -31,26 +30,13 @@ public:
     std::optional<Ticks> ticks;
 };
 
-class ProbingMoves : public Rig {
+class ProbingMoves : public ProbingRig {
 protected:
-    explicit ProbingMoves(const VirtualOptions& options = {.machine = MachineSetup{machine_with_probe()}})
-        : Rig(options) {
-        vm.observe(log);
-    }
+    ProbingMoves() : ProbingRig({.machine = MachineSetup{machine_with_probe()}}) {}
 
     static Program probe_to(const std::vector<double>& place, const Probe& probe = {}) {
-        Program program = program_of({}, 0);
-        program.blocks.push_back({1, probe});
-        program.blocks.push_back({1, ProgramMove{.target_mm = place, .feed_mm_s = kFeed_mm_s}});
-        return program;
+        return probing({.target_mm = place, .feed_mm_s = kFeed_mm_s}, probe);
     }
-    void begin(const Program& program) {
-        home();
-        log.steps.clear();
-        ASSERT_EQ(run(program).status, ReplyStatus::Accepted);
-    }
-    void touch(bool closed = true) { vm.set_input(kProbe, closed); }
-    const ProbeResult& result() const { return *vm.state()->probe; }
 
     /// The steps of an axis from its home place up to a tick.
     std::int64_t count_at(std::size_t axis, Tick tick) const {
@@ -66,8 +52,6 @@ protected:
             EXPECT_LE(std::abs(steps - static_cast<double>(count_at(axis, result().tick))), 0.5) << "axis " << axis;
         }
     }
-
-    StepLog log;
 };
 
 TEST_F(ProbingMoves, TellsWhereEveryAxisWasAtTheTickOfTheTouch) {

@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "core/coordinator/path/probe_cease.hpp"
-#include "tests/unit/virtual/rig.hpp"
+#include "tests/unit/virtual/devices/probing_rig.hpp"
 
 namespace lockstep {
 namespace {
 
-constexpr std::size_t kCloseProbe = 0;
 constexpr double kDebounce_ms = 1;
 
 MachineConfig machine_with_close_probe() {
@@ -25,27 +24,14 @@ MachineConfig machine_with_close_probe() {
     return machine;
 }
 
-class CeasingMoves : public Rig {
+class CeasingMoves : public ProbingRig {
 protected:
-    CeasingMoves() : Rig({.machine = MachineSetup{machine_with_close_probe()}}) { vm.observe(log); }
+    CeasingMoves() : ProbingRig({.machine = MachineSetup{machine_with_close_probe()}}) {}
 
     static Program probe_to(const std::vector<double>& place, double feed_mm_s = 5, const Probe& probe = {}) {
-        Program program = program_of({}, 0);
-        program.blocks.push_back({1, probe});
-        program.blocks.push_back({1, ProgramMove{.target_mm = place, .feed_mm_s = feed_mm_s, .is_feed_fixed = true}});
-        return program;
+        return probing({.target_mm = place, .feed_mm_s = feed_mm_s, .is_feed_fixed = true}, probe);
     }
-    void begin(const Program& program) {
-        home();
-        log.steps.clear();
-        const Reply reply = run(program);
-        ASSERT_EQ(reply.status, ReplyStatus::Accepted) << reply.text;
-    }
-    void touch(bool closed = true) { vm.set_input(kCloseProbe, closed); }
-    const ProbeResult& result() const { return *vm.state()->probe; }
     double behind_mm() const { return std::abs(static_cast<double>(counts()[kX]) / 100 - result().places_mm[kX]); }
-
-    StepLog log;
 };
 
 TEST_F(CeasingMoves, EndWhenTheInputHasFollowedItsPin) {
