@@ -13,8 +13,8 @@ double seconds_until_ceased(const MachineConfig& machine, const InputConfig& inp
     return input.debounce_ms * 1e-3 + 2 / machine.ticks_per_second();
 }
 
-}  // namespace
-
+/// The motor whose pulses can cease at a touch while it moves only this axis, by the axis's own steps; nullopt: the
+/// probe has inputs at other devices, or other motors move too.
 std::optional<MotorIndex> motor_that_may_cease(const Probe& probe, AxisIndex axis, const MachineConfig& machine,
                                                const Kinematics& kinematics) {
     const auto inputs = inputs_of_probe(machine.inputs, probe.input);
@@ -22,6 +22,8 @@ std::optional<MotorIndex> motor_that_may_cease(const Probe& probe, AxisIndex axi
     if (!motor || inputs.size() != 1 || kinematics.corrects_screw(*motor)) { return std::nullopt; }
     return motor_named(machine, inputs.front()->motor) == motor ? motor : std::nullopt;
 }
+
+}  // namespace
 
 bool ceases_at_touch(const Probe& probe, const ProgramMove& move, AxisIndex axis, const MachineConfig& machine,
                      const Kinematics& kinematics) {

@@ -1,5 +1,5 @@
 // Which probing moves end at their touch, and not behind it by the veto: those of one motor whose own device has the
-// probe's input. The device ends the pulses at the first tick at which the input, debounced, has touched.
+// only input. The device ends the pulses at the first tick at which the input, debounced, has touched.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,6 @@
 #include "core/program.hpp"
 
 namespace lockstep {
-
-/// The motor whose pulses can cease at a touch while it moves only this axis, by the axis's own steps; nullopt: the
-/// probe has inputs at other devices, or other motors move too.
-std::optional<MotorIndex> motor_that_may_cease(const Probe& probe, AxisIndex axis, const MachineConfig& machine,
-                                               const Kinematics& kinematics);
 
 /// Whether a move with this probe, which moves only this axis, ends at the touch: with any override its speed is at
 /// most the motor's start velocity, so that the motor loses no step when its pulses cease.
