@@ -157,27 +157,12 @@ TEST_F(ProbingMoves, DoesNotMoveIfTheProbeTouchesBeforeTheMoveBegins) {
 }
 
 TEST_F(ProbingMoves, FindsATouchWhileItComesToAHold) {
-    begin(probe_to({45, 5}));
-    wait(1);
-    ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
-    touch();
-    wait(2);
-    EXPECT_EQ(vm.state()->phase, MachinePhase::Idle) << describe();
-    ASSERT_TRUE(result().touched());
+    ASSERT_NO_FATAL_FAILURE(touch_before_a_hold(probe_to({45, 5})));
     expect_place_of_touch();
 }
 
 TEST_F(ProbingMoves, GoesOnAfterAHoldUntilItTouches) {
-    begin(probe_to({45, 5}));
-    wait(1);
-    ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
-    ASSERT_TRUE(reaches(MachinePhase::Holding, 3)) << describe();
-    ASSERT_EQ(ask(CommandKind::Resume).status, ReplyStatus::Accepted);
-    wait(1);
-    touch();
-    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
-    EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
-    ASSERT_TRUE(result().touched());
+    ASSERT_NO_FATAL_FAILURE(touch_after_a_hold(probe_to({45, 5})));
     expect_place_of_touch();
 }
 
@@ -195,11 +180,7 @@ TEST_F(ProbingMoves, TheNextProgramBeginsWhereTheMoveEnded) {
     wait(1);
     touch();
     ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
-    const std::vector<std::int64_t> at = counts();
-    const std::vector<double> here{static_cast<double>(at[kX]) / 100, static_cast<double>(at[kY]) / 100};
-    ASSERT_EQ(run(program_of({{6, 6}}, 20, here)).status, ReplyStatus::Accepted);
-    ASSERT_TRUE(reaches(MachinePhase::Idle, 9)) << describe();
-    EXPECT_EQ(counts(), (std::vector<std::int64_t>{600, 600}));
+    go_on_from_here();
 }
 
 TEST_F(ProbingMoves, IsRefusedIfItWouldGoOnTooFar) {

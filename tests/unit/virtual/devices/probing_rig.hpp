@@ -26,6 +26,37 @@ protected:
         ASSERT_EQ(reply.status, ReplyStatus::Accepted) << reply.text;
     }
     void touch(bool closed = true) { vm.set_input(kProbe, closed); }
+    /// Begins, and touches while the machine comes to a hold.
+    void touch_before_a_hold(const Program& program) {
+        begin(program);
+        wait(1);
+        ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
+        touch();
+        wait(2);
+        EXPECT_EQ(vm.state()->phase, MachinePhase::Idle) << describe();
+        ASSERT_TRUE(result().touched());
+    }
+    /// Begins, holds, resumes, and touches.
+    void touch_after_a_hold(const Program& program) {
+        begin(program);
+        wait(1);
+        ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
+        ASSERT_TRUE(reaches(MachinePhase::Holding, 3)) << describe();
+        ASSERT_EQ(ask(CommandKind::Resume).status, ReplyStatus::Accepted);
+        wait(1);
+        touch();
+        ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+        EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
+        ASSERT_TRUE(result().touched());
+    }
+    /// A program that begins where the axes rest ends at its place.
+    void go_on_from_here() {
+        const std::vector<std::int64_t> at = counts();
+        const std::vector<double> here{static_cast<double>(at[kX]) / 100, static_cast<double>(at[kY]) / 100};
+        ASSERT_EQ(run(program_of({{6, 6}}, 20, here)).status, ReplyStatus::Accepted);
+        ASSERT_TRUE(reaches(MachinePhase::Idle, 9)) << describe();
+        EXPECT_EQ(counts(), (std::vector<std::int64_t>{600, 600}));
+    }
     const ProbeResult& result() const { return *vm.state()->probe; }
 
     StepLog log;
