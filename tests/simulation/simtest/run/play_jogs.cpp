@@ -20,7 +20,7 @@ void JogPlayer::play() {
     job_ = {.homing = true, .course = {}, .first_step = bench_.steps_made(), .began = bench_.vm().now()};
     if (has_course()) {
         const Counts axes = bench_.axes_at(at_);
-        const Program program = program_of_jog(session_.presses.front(), bench_.machine(), axes);
+        const Program program = program_of_jog(session_.presses.front(), bench_.machine(), bench_.kinematics(), axes);
         job_.homing = false;
         job_.course = course_of_motors(course_of(program, bench_.machine(), axes), bench_.map(), bench_.machine(), at_);
     }
@@ -187,7 +187,7 @@ void JogPlayer::record() {
     for (std::size_t i = 0; i < at_.size(); ++i) {
         for (const std::int64_t way : bench_.recording().slide_ways(job_, i)) { at_[i] += way; }
     }
-    // After late renewals, and for each further line, the axes begin on whole steps of the motors beside the line.
+    // After late renewals the axes begin on whole steps of the motors beside the line.
     for (Stretch& stretch : job_.course.stretches) { stretch.within += 1; }
     job_.ended = bench_.vm().now();
     const bool is_undisturbed = !disturbed() && !bench_.faulted() && !bench_.over();
