@@ -12,18 +12,23 @@ AxisSwitches::AxisSwitches(const MachineConfig& machine) : kinematics_(machine) 
         for (std::size_t n = 0; n < machine.inputs.size(); ++n) {
             const InputConfig& input = machine.inputs[n];
             const bool is_home = row_of(axis.homing.way).runs_programs && input.name == axis.homing.input;
-            if (is_home) { add(n, i, axis, axis.homing.switch_position_mm, axis.homing.toward_min); }
+            if (is_home) { add(n, i, machine, axis.homing.switch_position_mm, axis.homing.toward_min); }
             if (!input.is_limit_by_message() || input.axis != axis.name) { continue; }
             const bool at_min = input.use == InputUse::LimitMin;
             const double margin = axis.plant.travel_margin_mm;
-            add(n, i, axis, at_min ? axis.position_min_mm - margin : axis.position_max_mm + margin, at_min);
+            add(n, i, machine, at_min ? axis.position_min_mm - margin : axis.position_max_mm + margin, at_min);
         }
     }
 }
 
-void AxisSwitches::add(std::size_t input, AxisIndex axis, const AxisConfig& config, double at_mm, bool toward_min) {
-    switches_.push_back(
-        {.input = input, .axis = axis, .at_steps = at_mm * config.steps_per_mm, .toward_min = toward_min});
+void AxisSwitches::add(std::size_t input, AxisIndex axis, const MachineConfig& machine, double at_mm, bool toward_min) {
+    const AxisConfig& config = machine.axes[axis];
+    switches_.push_back({.input = input,
+                         .axis = axis,
+                         .at_steps = at_mm * config.steps_per_mm,
+                         .toward_min = toward_min,
+                         .steps_per_mm = config.steps_per_mm,
+                         .reach = Reach::of(config, machine)});
 }
 
 void AxisSwitches::follow(std::span<const Position> slides, const std::function<void(std::size_t, bool)>& set) {
@@ -35,12 +40,14 @@ void AxisSwitches::follow(std::span<const Position> slides, const std::function<
     }
 }
 
-bool AxisSwitches::may_change_next() {
-    constexpr double kLeast_steps = 2;
+bool AxisSwitches::may_change_within(Ticks next) {
+    constexpr double kRounded_steps = 2;
+    const Ticks last = std::exchange(interval_, next);
     bool may_change = false;
     for (Switch& one : switches_) {
         const double way = std::abs(one.axis_steps - std::exchange(one.begun_at_steps, one.axis_steps));
-        may_change |= std::abs(one.axis_steps - one.at_steps) <= 3 * way + kLeast_steps;
+        const double reach = one.reach.mm(way / one.steps_per_mm, last, next) * one.steps_per_mm + kRounded_steps;
+        may_change |= std::abs(one.axis_steps - one.at_steps) <= reach;
     }
     return may_change;
 }

@@ -9,6 +9,7 @@
 
 #include "core/kinematics/kinematics.hpp"
 #include "core/machine.hpp"
+#include "sim_fpga/workpiece/reach.hpp"
 
 namespace lockstep {
 
@@ -19,9 +20,8 @@ public:
     bool none() const { return switches_.empty(); }
     /// Calls set(input, closed) for each switch that changes while the slides of the motors are at these places.
     void follow(std::span<const Position> slides, const std::function<void(std::size_t, bool)>& set);
-    /// Call it after each interval of motion. Returns whether a switch may change in the next one, in which an axis
-    /// goes at most three times as far.
-    bool may_change_next();
+    /// Call it before each interval of motion of so many ticks. Returns whether a switch may change in it.
+    bool may_change_within(Ticks next);
 
 private:
     struct Switch {
@@ -30,14 +30,17 @@ private:
         double at_steps = 0;
         bool toward_min = true;
         bool is_closed = false;
+        double steps_per_mm = 1;
+        Reach reach{};
         double axis_steps = 0;  // its place now, and at the begin of the interval
         double begun_at_steps = 0;
     };
 
-    void add(std::size_t input, AxisIndex axis, const AxisConfig& config, double at_mm, bool toward_min);
+    void add(std::size_t input, AxisIndex axis, const MachineConfig& machine, double at_mm, bool toward_min);
 
     Kinematics kinematics_;
     std::vector<Switch> switches_;
+    Ticks interval_;
 };
 
 }  // namespace lockstep

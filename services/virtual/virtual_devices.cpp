@@ -96,15 +96,16 @@ void VirtualDevices::follow_switches(Tick now) {
     if (switches_.none() && work_.none()) { return; }
     constexpr Ticks kLook{16};
     for (Device& device : devices_) { device.next_step.reset(); }
-    for (Tick at = followed_ + kLook; may_change_ && at < now; at += kLook) {
+    const Ticks ticks = now - followed_;
+    const bool may_close = switches_.may_change_within(ticks);
+    const bool may_change = work_.may_change_within(ticks) || may_close;
+    for (Tick at = followed_ + kLook; may_change && at < now; at += kLook) {
         if (!may_have_stepped(at)) { continue; }
         follow_switches_at(at);
         note_next_steps(now);
     }
     follow_switches_at(now);
     followed_ = now;
-    const bool may_touch = work_.may_change_next();
-    may_change_ = switches_.may_change_next() || may_touch;
 }
 
 /// Nothing changes between steps, unless a message arrives at a device on its link.

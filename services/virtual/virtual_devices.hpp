@@ -71,7 +71,6 @@ private:
     AxisSwitches switches_;
     WorkContacts work_;
     Tick followed_;  // by both
-    bool may_change_ = true;
 };
 
 }  // namespace lockstep

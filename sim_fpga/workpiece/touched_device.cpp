@@ -25,10 +25,10 @@ void TouchedDevice::advance(Tick until, Plant& plant, const std::function<void(T
     constexpr Ticks kLook{16};
     constexpr std::int64_t kMostLooks = 1000;
     const Ticks look_every{std::max(kLook.value, (until - now_).value / kMostLooks)};
-    for (Tick at = now_ + look_every; may_change_ && at < until; at += look_every) { look(at, plant, run); }
+    const bool may_change = contacts_.may_change_within(until - now_);
+    for (Tick at = now_ + look_every; may_change && at < until; at += look_every) { look(at, plant, run); }
     look(until, plant, run);
     now_ = until;
-    may_change_ = contacts_.may_change_next();
 }
 
 void TouchedDevice::look(Tick at, Plant& plant, const std::function<void(Tick)>& run) {

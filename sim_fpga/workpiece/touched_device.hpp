@@ -33,7 +33,6 @@ private:
     SharedSlides slides_;
     WorkContacts contacts_;
     Tick now_;
-    bool may_change_ = true;
 };
 
 }  // namespace lockstep

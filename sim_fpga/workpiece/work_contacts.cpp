@@ -11,7 +11,10 @@ WorkContacts::WorkContacts(const MachineConfig& machine, const std::string& moto
     if (!machine.workpiece) { return; }
     for (const char* name : {"X", "Y", "Z"}) { axes_.push_back(machine.axis_named(name).value()); }
     for (const AxisConfig& axis : machine.axes) { step_mm_.push_back(1 / axis.steps_per_mm); }
-    for (const AxisIndex axis : axes_) { least_mm_ = std::max(least_mm_, 2 * step_mm_[axis]); }
+    for (const AxisIndex axis : axes_) {
+        reach_ = reach_.with(Reach::of(machine.axes[axis], machine));
+        rounded_mm_ = std::max(rounded_mm_, 2 * step_mm_[axis]);
+    }
     for (std::size_t i = 0; i < machine.inputs.size(); ++i) {
         const InputConfig& input = machine.inputs[i];
         if (input.use != InputUse::Probe || (!motor.empty() && input.motor != motor)) { continue; }
@@ -35,11 +38,12 @@ void WorkContacts::follow(std::span<const Position> slides, const std::function<
     }
 }
 
-bool WorkContacts::may_change_next() {
+bool WorkContacts::may_change_within(Ticks next) {
+    const Ticks last = std::exchange(interval_, next);
     const WorkPlace begun = std::exchange(begun_at_, place_);
     const double way = std::hypot(place_.x_mm - begun.x_mm, place_.y_mm - begun.y_mm, place_.z_mm - begun.z_mm);
-    return std::ranges::any_of(contacts_,
-                               [&](const Contact& contact) { return std::abs(contact.gap_mm) <= 3 * way + least_mm_; });
+    const double reach_mm = reach_.mm(way, last, next) + rounded_mm_;
+    return std::ranges::any_of(contacts_, [&](const Contact& contact) { return std::abs(contact.gap_mm) <= reach_mm; });
 }
 
 }  // namespace lockstep

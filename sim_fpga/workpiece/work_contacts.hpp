@@ -9,6 +9,7 @@
 
 #include "core/kinematics/kinematics.hpp"
 #include "core/machine.hpp"
+#include "sim_fpga/workpiece/reach.hpp"
 #include "sim_fpga/workpiece/workpiece.hpp"
 
 namespace lockstep {
@@ -22,9 +23,8 @@ public:
     bool none() const { return contacts_.empty(); }
     /// Calls set(input, closed) for each input that changes while the slides of the motors are at these places.
     void follow(std::span<const Position> slides, const std::function<void(std::size_t, bool)>& set);
-    /// Call it after each interval of motion. Returns whether an input may change in the next one, in which an axis
-    /// goes at most three times as far.
-    bool may_change_next();
+    /// Call it before each interval of motion of so many ticks. Returns whether an input may change in it.
+    bool may_change_within(Ticks next);
 
 private:
     struct Contact {
@@ -39,10 +39,12 @@ private:
     Workpiece work_;
     std::vector<AxisIndex> axes_;  // X, Y and Z
     std::vector<double> step_mm_;  // of each axis of the machine
-    double least_mm_ = 0;          // of a motion that began in the interval
+    Reach reach_;                  // of their way
+    double rounded_mm_ = 0;
     std::vector<Contact> contacts_;
     WorkPlace place_;  // now, and at the begin of the interval
     WorkPlace begun_at_;
+    Ticks interval_;
 };
 
 }  // namespace lockstep
