@@ -74,8 +74,8 @@ HomingStep Homing::pull_off() {
 /// is pushed after the touch, the switch does not show it, but the encoder differs.
 HomingStep Homing::touch(const LocalEnd& end) {
     const std::int64_t tolerance = std::max<std::int64_t>(1, to_steps(motor_, motor_.homing.touch_tolerance_mm));
-    const Touch here{end.trigger_count, end.encoder_ahead};
-    const bool agrees = last_ && std::abs(here.count - last_->count) <= tolerance &&
+    const Touch here{end.trigger_count, end.trigger_error, end.encoder_ahead};
+    const bool agrees = last_ && std::abs(here.count - last_->count) <= tolerance + here.error + last_->error &&
                         std::abs(here.encoder_ahead - last_->encoder_ahead) <= tolerance;
     if (agrees && stage_ == HomingStage::Latch) { return zero_and_park(end); }
     last_ = here;

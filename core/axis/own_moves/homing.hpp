@@ -32,6 +32,7 @@ struct LocalEnd {
     bool home_closed = false;  // the switch is closed now
     std::int64_t count = 0;    // the device's count
     std::int64_t trigger_count = 0;
+    std::int64_t trigger_error = 0;  // by how much it may be off, because the touch is known by another clock
     std::int64_t encoder_ahead = 0;  // encoder minus count, now
 };
 
@@ -62,6 +63,7 @@ public:
 private:
     struct Touch {
         std::int64_t count = 0;          // the device's, at the switch
+        std::int64_t error = 0;          // by how much it may be off
         std::int64_t encoder_ahead = 0;  // encoder minus count, at rest behind the switch
     };
 

@@ -1,6 +1,7 @@
 #include "core/coordinator/homing/touch_homing.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/check.hpp"
@@ -120,11 +121,30 @@ Program TouchHoming::program(const LoopView& loop) {
     return program;
 }
 
+/// By how many steps the touched place may be off: by the way in the errors of the clocks of the switch and of a motor,
+/// and by half a step of each motor, because a switch follows the slide, which goes by whole steps.
+std::int64_t TouchHoming::touch_error(const LoopView& loop) const {
+    const auto error_of = [&](MotorIndex m) {
+        const auto& state = loop.axes.state(m);
+        return state ? state->clock_error : Ticks{};
+    };
+    Ticks error{};
+    for (const MotorIndex m : loop.kinematics.motors_of_axes(AxisSet{axis_})) {
+        if (m != switch_.motor) { error = std::max(error, error_of(switch_.motor) + error_of(m)); }
+    }
+    const double clocks_mm = move_->speed_mm_s * loop.machine.microseconds(error) * 1e-6;
+    const double steps_mm = loop.kinematics.own_motor(axis_) ? 0 : loop.kinematics.step_mm(axis_) / 2;
+    return static_cast<std::int64_t>(std::ceil((clocks_mm + steps_mm) * config_.steps_per_mm));
+}
+
 void TouchHoming::moved(const std::optional<ProbeResult>& probe, const LoopView& loop) {
     const std::int64_t way = loop.counts()[axis_] - from_;
     const bool is_touched = move_->trigger != Trigger::None && probe && probe->touched();
     end_ = {.by_trigger = is_touched, .count = at_ + way};
-    if (is_touched) { end_.trigger_count = at_ + to_steps(config_, probe->places_mm[axis_]) - from_; }
+    if (is_touched) {
+        end_.trigger_count = at_ + to_steps(config_, probe->places_mm[axis_]) - from_;
+        end_.trigger_error = touch_error(loop);
+    }
     at_ += way;
     left_ = is_touched ? 0 : left_ - (to_ - from_);
     is_placed_ = false;

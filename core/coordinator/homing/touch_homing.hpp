@@ -49,6 +49,7 @@ private:
     bool is_switch_known(const LoopView& loop) const;
     bool take(const HomingStep& step);
     std::int64_t end_of_travel(bool upper) const;
+    std::int64_t touch_error(const LoopView& loop) const;
 
     AxisIndex axis_;
     AxisConfig config_;

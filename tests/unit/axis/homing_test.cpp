@@ -71,6 +71,21 @@ TEST_F(HomingSequence, TouchesFurtherApartThanTheToleranceAreTriedAgain) {
     EXPECT_EQ(touch(-699).zero_count, -699);
 }
 
+/// The errors of both touches count, but no more than these.
+TEST_F(HomingSequence, TouchesThatAnotherClockTellsOfMayDifferByItsError) {
+    const auto closes_about = [](std::int64_t count, std::int64_t error) {
+        LocalEnd end = closes_at(count);
+        end.trigger_error = error;
+        return end;
+    };
+    homing.begin(false, 0);
+    homing.next(closes_about(-700, 4));
+    homing.next(stands_at(-600));
+    EXPECT_FALSE(homing.next(closes_about(-709, 2)).zeroed) << "9 steps; 4 and 2 are errors, 2 are the tolerance";
+    homing.next(stands_at(-609));
+    EXPECT_EQ(homing.next(closes_about(-701, 4)).zero_count, -701) << "8 steps";
+}
+
 TEST_F(HomingSequence, ASlideThatIsPushedBehindTheTouchIsTouchedAgain) {
     homing.begin(false, 0);
     touch(-700);
