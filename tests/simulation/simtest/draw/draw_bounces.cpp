@@ -1,8 +1,29 @@
 #include "tests/simulation/simtest/draw/draw_bounces.hpp"
 
+#include <algorithm>
+
+#include "core/coordinator/program/probe_check.hpp"
 #include "tests/simulation/simtest/draw/draw.hpp"
 
 namespace lockstep::simtest {
+namespace {
+
+/// An axis that homes by the touch of this input goes on while it bounces, and then still stops in front of the limit
+/// switch. Bounces are no longer than for half of the room.
+void leave_room(MachineConfig& machine, InputConfig& input) {
+    for (AxisConfig& axis : machine.axes) {
+        if (axis.homing.way != HomingWay::ByTouch || axis.homing.input != input.name) { continue; }
+        HomingConfig& homing = axis.homing;
+        const double half_mm = input.max_overshoot_mm / 2;
+        input.simulated_bounce_ms = std::min(input.simulated_bounce_ms, half_mm / homing.search_velocity_mm_s * 1e3);
+        input.max_overshoot_mm -= homing.search_velocity_mm_s * bounce_seconds(input);
+        const double most = 0.99 * greatest_probing_feed_mm_s(machine, input, axis.max_decel_mm_s2);
+        homing.search_velocity_mm_s = std::min(homing.search_velocity_mm_s, most);
+        homing.latch_velocity_mm_s = std::min(homing.latch_velocity_mm_s, homing.search_velocity_mm_s);
+    }
+}
+
+}  // namespace
 
 void give_bounces(std::uint64_t seed, Scenario& scenario) {
     Draw draw(seed ^ 0xb0c7ceb0c7ceb0c7U);
@@ -11,6 +32,7 @@ void give_bounces(std::uint64_t seed, Scenario& scenario) {
         const bool is_short = draw.chance(0.5) || input.use == InputUse::Home;
         const double most_ms = is_short ? 0.9 * input.debounce_ms : 10;
         input.simulated_bounce_ms = most_ms * draw.part();
+        leave_room(scenario.machine, input);
     }
 }
 

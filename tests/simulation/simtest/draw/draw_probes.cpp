@@ -14,6 +14,7 @@ namespace {
 constexpr int kChannel = 5;
 constexpr int kSecondChannel = 6;
 constexpr double kAnyOvershoot_mm = 1000;
+constexpr double kBelow = 1 - 1e-12;  // a limit, whatever its rounding
 
 Interrupt interrupt_of(Draw& draw, Interrupt::Kind kind) {
     Interrupt interrupt{.kind = kind, .wrong = {}};
@@ -22,20 +23,25 @@ Interrupt interrupt_of(Draw& draw, Interrupt::Kind kind) {
     return interrupt;
 }
 
-/// A straight move of all axes to somewhere within their travel, which any probe bears.
+/// Slows the probing move so that any probe bears it.
+void bear(const MachineConfig& machine, ProgramMove& move) {
+    double least_decel = std::numeric_limits<double>::max();
+    for (const AxisConfig& axis : machine.axes) { least_decel = std::min(least_decel, axis.max_decel_mm_s2); }
+    for (const std::size_t input : probe_inputs(machine)) {
+        const double most = greatest_probing_feed_mm_s(machine, machine.inputs[input], least_decel);
+        move.feed_mm_s = std::min(move.feed_mm_s, most * kBelow);
+    }
+}
+
+/// A straight move of all axes to somewhere within their travel.
 Program draw_probing(Draw& draw, const MachineConfig& machine) {
     Program program{.name = "probe", .axes = {}, .start_mm = {}, .blocks = {}};
     ProgramMove move{.feed_mm_s = draw.magnitude(0.5, 30), .is_feed_fixed = true};
-    double least_decel = std::numeric_limits<double>::max();
     for (const AxisConfig& axis : machine.axes) {
         program.axes.push_back(axis.name);
         move.target_mm.push_back(draw.real(axis.position_min_mm, axis.position_max_mm));
-        least_decel = std::min(least_decel, axis.max_decel_mm_s2);
     }
-    for (const std::size_t input : probe_inputs(machine)) {
-        const double most = greatest_probing_feed_mm_s(machine, machine.inputs[input], least_decel);
-        move.feed_mm_s = std::min(move.feed_mm_s, most);
-    }
+    bear(machine, move);
     program.blocks.push_back({1, Probe{.must_touch = draw.chance(0.7)}});
     program.blocks.push_back({2, std::move(move)});
     return program;
@@ -70,6 +76,9 @@ void give_second_input(Draw draw, Scenario& scenario) {
     if (draw.chance(0.5)) { return; }
     scenario.machine.inputs.push_back(draw_input(draw, scenario.machine, "second", kSecondChannel));
     for (Task& task : scenario.tasks) {
+        if (is_probing(task.program)) {
+            bear(scenario.machine, std::get<ProgramMove>(task.program.blocks.back().action));
+        }
         for (Interrupt& interrupt : task.interrupts) {
             if (interrupt.kind != Interrupt::Kind::Touch) { continue; }
             interrupt.touched = draw.index(2);

@@ -16,6 +16,7 @@ void ClaimCheck::on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, Axis
     if (!row_of(motors_[axis].homing.way).searches && !is_by_touch) { note_zero(axis, out); }
     if (!out.state) { return; }
     const AxisState& state = *out.state;
+    touch_errors_.note(axis, state);
     const std::int64_t claimed = state.position.count();
     const bool lacks_device = state.unproved == FaultCode::DeviceMissing;
     if (lacks_device && state.homed) { object(axis, now, "it says that it is homed, and that it has no device"); }
@@ -35,13 +36,10 @@ void ClaimCheck::on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, Axis
     if (is_late && state.tick - state.clock_error <= moved_[axis]) { return; }
     // In motion an axis takes its play from the pieces that its device has run, and for one direction since then.
     if (recording_.motors[axis].play > 0 && !state.at_rest) { return; }
-    // The switch closes within a step of the reported position, and whole steps are off by at most half a step.
-    // A motor that moves several axes adds up what the switches of these axes are off.
-    const double kHomedWithin = is_by_touch ? 4 : 2;
     const double slide = vm_.device(axis).plant().position_mm() * motors_[axis].steps_per_mm;
     const std::int64_t by_encoder = claimed + state.following_error_steps;
     const double is_off = slide - zero_[axis] - static_cast<double>(by_encoder - state.play_steps);
-    if (state.homed && std::abs(is_off) > kHomedWithin) {
+    if (state.homed && std::abs(is_off) > homed_within(axis)) {
         object(axis, now,
                "it reports that it is homed at step " + std::to_string(by_encoder) +
                    " by its encoder, its slide is at step " + std::to_string(slide));

@@ -10,6 +10,7 @@
 #include "core/protocol/rules.hpp"
 #include "services/virtual/virtual_machine.hpp"
 #include "tests/simulation/simtest/record/recording.hpp"
+#include "tests/simulation/simtest/record/touch_errors.hpp"
 
 namespace lockstep::simtest {
 
@@ -21,6 +22,7 @@ public:
           motors_(motors_of(vm.machine())),
           by_touch_(Kinematics(vm.machine())
                         .motors_of_axes(axes_homed_by_touch(AxisSet::first(vm.machine().axes.size()), vm.machine()))),
+          touch_errors_(vm.machine()),
           pulses_(recording.motors.size(), 0),
           power_up_(recording.motors.size(), Tick{std::numeric_limits<std::int64_t>::min()}),
           has_device_(recording.motors.size(), true),
@@ -38,6 +40,14 @@ public:
     }
     void on_axis(MotorIndex axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
+    /// Motors that are moved by axes that home by touch.
+    const MotorSet& by_touch() const { return by_touch_; }
+    /// By how many steps the slide of a homed motor may be off. The switch closes within a step of the reported
+    /// position, and whole steps are off by at most half a step. A motor that moves several axes adds up what the
+    /// switches of these axes are off.
+    double homed_within(MotorIndex motor) const {
+        return (by_touch_.contains(motor) ? 4 : 2) + touch_errors_.steps(motor);
+    }
 
 private:
     bool has_yet_to_notice(std::size_t axis);
@@ -47,7 +57,8 @@ private:
     VirtualMachine& vm_;
     Recording& recording_;
     std::vector<MotorConfig> motors_;
-    MotorSet by_touch_;                 // motors that are homed by it
+    MotorSet by_touch_;
+    TouchErrors touch_errors_;
     std::vector<std::int64_t> pulses_;  // since the device's power-up
     std::vector<Tick> power_up_;        // in its own time
     std::vector<bool> has_device_;      // the device works, and the axis uses it

@@ -89,6 +89,14 @@ bool may_have_ceased(const MotorRecord& motor, Epoch epoch) {
     return last == motor.tracks.rend() || last->cut;
 }
 
+/// A motor whose slide is elsewhere because of an earlier fault can hit its limit switch while it is homed.
+bool was_stopped(const Recording& recording, Epoch number, const SentEpoch& epoch, std::size_t motor) {
+    const auto is_cut = [number](const Track& track) { return track.epoch == number && track.cut; };
+    const SentFrame& last = epoch.frames.rbegin()->second;
+    return std::ranges::any_of(recording.motors[motor].tracks, is_cut) &&
+           may_be_stopped(recording, motor, epoch.frames.begin()->second.start, last.start + last.ticks);
+}
+
 EpochRuns runs_of(const Recording& recording, Epoch number, const SentEpoch& epoch) {
     EpochRuns runs{.may_differ = may_differ(recording, epoch)};
     FrameNumber least = epoch.frames.rbegin()->first;
@@ -104,6 +112,7 @@ EpochRuns runs_of(const Recording& recording, Epoch number, const SentEpoch& epo
         }
         if (epoch.ceases == i && may_have_ceased(axis, number)) { last.high = epoch.frames.rbegin()->first; }
         runs.last.push_back(last);
+        if (was_stopped(recording, number, epoch, i)) { runs.may_differ[i] = true; }
         runs.lost_device.push_back(has_lost_device(recording, epoch, i));
         least = std::min(least, last.high);
         most = std::max(most, last.low);

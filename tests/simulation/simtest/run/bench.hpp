@@ -72,6 +72,8 @@ public:
     const MachineConfig& machine() const { return scenario_.machine; }
     const Kinematics& kinematics() const { return kinematics_; }
     const MotorShares& map() const { return map_; }
+    const MotorSet& homed_by_touch() const { return claims_.by_touch(); }
+    double homed_within(MotorIndex motor) const { return claims_.homed_within(motor); }
     /// Where the axes are, in steps of the axes.
     Counts axes_at(const Counts& motors) const;
     /// An upper bound of the time in which the protocol comes to rest and starts again, as often as it may have to.

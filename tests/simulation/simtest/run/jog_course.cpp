@@ -33,9 +33,7 @@ double seconds_of(const Way& way, const MachineConfig& machine, const Counts& he
 
 Counts rest_at(const std::vector<double>& target_mm, const MachineConfig& machine, const Kinematics& kinematics) {
     AxisCounts axes;
-    for (std::size_t i = 0; i < target_mm.size(); ++i) {
-        axes.append(nearest_step(machine.axes[i], target_mm[i]));
-    }
+    for (std::size_t i = 0; i < target_mm.size(); ++i) { axes.append(nearest_step(machine.axes[i], target_mm[i])); }
     const AxisCounts read = kinematics.axes_at(kinematics.motors_at(axes));
     return {read.begin(), read.end()};
 }

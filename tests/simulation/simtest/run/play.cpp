@@ -11,28 +11,12 @@
 namespace lockstep::simtest {
 namespace {
 
-/// How far a motor can be from its place because the clocks that tell of touches and of steps are only estimated.
-double moved_in_clock_errors(Bench& bench, std::size_t motor) {
-    Ticks bound{0};
-    for (const MotorRecord& of_device : bench.recording().motors) {
-        bound = std::max(bound, of_device.bound_at(bench.vm().now()));
-    }
-    double steps = 0;
-    for (const AxisIndex i : axis_indices(bench.machine().axes.size())) {
-        const AxisConfig& axis = bench.machine().axes[i];
-        if (axis.homing.way != HomingWay::ByTouch) { continue; }
-        const double way_mm = axis.homing.latch_velocity_mm_s * 1e-6 * bench.machine().microseconds(bound + bound);
-        steps += std::abs(bench.map().share(motor, i)) * axis.steps_per_mm * way_mm;
-    }
-    return steps;
-}
-
-/// The slide is at its true place within two steps: it closes its switch up to a step late, and the switch and the park
-/// are rounded to whole steps. Where motors are not those of one axis each, an axis that homes by touch has finer steps
-/// than they, and the touch, the switch and the park are rounded to these, too.
+/// The slide is at its true place as exactly as its motor was homed. Where motors are not those of one axis each, an
+/// axis that homes by touch has finer steps than they, and the touch, the switch and the park are rounded to these,
+/// too.
 void check_slides(Bench& bench, const Counts& at) {
     constexpr double kFinerSteps = 16;
-    const double searched = 2 + (bench.map().is_direct() ? 0 : 1.5 / kFinerSteps);
+    const double rounded = bench.map().is_direct() ? 0 : 1.5 / kFinerSteps;
     for (std::size_t i = 0; i < at.size() && !bench.over(); ++i) {
         const MotorConfig& motor = bench.kinematics().motors()[i];
         const bool was_pushed = may_be_stopped(bench.recording(), i, bench.recording().began, bench.vm().now());
@@ -41,8 +25,9 @@ void check_slides(Bench& bench, const Counts& at) {
         const double mm = static_cast<double>(at[i] + bench.slipped(i)) / motor.steps_per_mm;
         const double is = bench.vm().device(i).plant().position_mm();
         // In place: as exactly as it was put there.
-        const double most = in_place && !corrects(bench.machine()) ? static_cast<double>(most_following_error(motor))
-                                                                   : searched + moved_in_clock_errors(bench, i);
+        const bool was_put = in_place && !corrects(bench.machine()) && !bench.homed_by_touch().contains(MotorIndex{i});
+        const double most =
+            was_put ? static_cast<double>(most_following_error(motor)) : bench.homed_within(MotorIndex{i}) + rounded;
         if (std::abs(is - mm) * motor.steps_per_mm > most) {
             bench.object("place",
                          motor.name + " stands at " + std::to_string(is) + " mm instead of " + std::to_string(mm));

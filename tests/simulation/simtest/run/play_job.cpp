@@ -73,12 +73,6 @@ void ask_in_fault(Bench& bench) {
     if (moves || reply->status != ReplyStatus::Refused) { bench.object("refusal", "in Fault: " + answer_text(*reply)); }
 }
 
-/// Motors that are moved by axes that home by touch.
-MotorSet homed_by_touch(const Bench& bench) {
-    return bench.kinematics().motors_of_axes(
-        axes_homed_by_touch(AxisSet::first(bench.machine().axes.size()), bench.machine()));
-}
-
 /// The park position, on a whole step of each axis. A motor that lost its coordinator on the way, with its zero set,
 /// rests where it reports; check_slides() compares that with the true place of the slide.
 std::int64_t place_after_homing(const Bench& bench, MotorIndex motor, JobOutcome outcome) {
@@ -112,7 +106,7 @@ int most_tries(const Bench& bench) {
 /// switches.
 void put_to_park(Bench& bench) {
     bool moves = false;
-    const MotorSet by_touch = homed_by_touch(bench);
+    const MotorSet& by_touch = bench.homed_by_touch();
     const bool is_exact = corrects(bench.machine());
     for (const MotorIndex m : motor_indices(bench.kinematics().motors().size())) {
         const MotorConfig& motor = bench.kinematics().motors()[m];

@@ -27,9 +27,12 @@ void Watch::look_at_owner() {
 }
 
 /// A move of axes that home by touch is a job within the homing, and a correction of lost steps one within its program.
+/// A new owner may give a number again that the one before it gave while it was cut off.
 void Watch::take_job(std::size_t process, const JobEvent& job) {
-    if (job.kind == JobEvent::Kind::Begun && job.job_kind == JobKind::Home && job.program) { homing_move_ = job.job; }
-    if (job.job == homing_move_ || job.job_kind == JobKind::Return) { return; }
+    const std::pair number{process, job.job};
+    if (job.kind == JobEvent::Kind::Begun && homing_move_ == number) { homing_move_.reset(); }
+    if (job.kind == JobEvent::Kind::Begun && job.job_kind == JobKind::Home && job.program) { homing_move_ = number; }
+    if (number == homing_move_ || job.job_kind == JobKind::Return) { return; }
     if (job.kind == JobEvent::Kind::Begun) {
         job_of_ = process;
         orphaned_ = false;

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "services/virtual/virtual_machine.hpp"
@@ -61,7 +62,7 @@ private:
     std::size_t job_of_ = 0;  // the coordinator that began or continued the last job
     bool orphaned_ = false;   // this coordinator has ended since, or gave up the machine
     std::optional<JobOutcome> outcome_;
-    std::uint64_t homing_move_ = 0;
+    std::optional<std::pair<std::size_t, std::uint64_t>> homing_move_;  // process and number of the job
     std::map<std::uint64_t, MachinePhase> phase_at_command_;
 };
 

@@ -13,6 +13,7 @@ namespace lockstep::simtest {
 namespace {
 
 constexpr int kHomeChannel = 7;
+constexpr double kMostOvershoot_mm = 1000;
 constexpr double kMostSlots = 4000;  // of a search
 
 /// From the switch to the limit switch behind it, less two steps.
@@ -31,7 +32,7 @@ std::optional<InputConfig> draw_switch(Draw& draw, const MachineConfig& machine,
                             .use = InputUse::Home,
                             .active_low = draw.chance(0.3),
                             .debounce_ms = draw.chance(0.3) ? 0 : draw.magnitude(0.01, 2),
-                            .max_overshoot_mm = room_mm(axis)};
+                            .max_overshoot_mm = std::min(room_mm(axis), kMostOvershoot_mm)};
     const bool is_taken = std::ranges::count(machine.inputs, input.motor, &InputConfig::motor) > 0;
     return !is_taken && input.max_overshoot_mm > 0.001 ? std::optional(input) : std::nullopt;
 }
