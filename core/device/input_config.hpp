@@ -83,6 +83,7 @@ struct InputConfig {
     std::optional<int> number;                     // under which programs know it: Program, Probe
     double max_overshoot_mm = kUsualOvershoot_mm;  // how far a move may go on behind the touch: Probe, Home, see axis
     TouchInMotion at_touch_in_motion = TouchInMotion::Nothing;  // Probe
+    std::string wire;  // the inputs of one wire, at different devices, are one switch that all of them see: Probe
     double simulated_bounce_ms = 0;  // for how long a simulated contact bounces after it changes
     // LimitMin, LimitMax: the axis at whose end the switch is, if the coordinator stops the machine. Empty: the device
     // stops its motor.

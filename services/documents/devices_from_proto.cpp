@@ -103,6 +103,7 @@ InputConfig read_input(const proto::Input& message, const std::string& place, Pr
     if (message.has_number()) { input.number = message.number(); }
     if (message.has_max_overshoot_mm()) { input.max_overshoot_mm = message.max_overshoot_mm(); }
     input.axis = message.axis();
+    input.wire = message.wire();
     input.simulated_bounce_ms = message.simulated_bounce_ms();
     input.at_touch_in_motion = value_of<TouchInMotion>(message.at_touch_in_motion());
     if (!proto::TouchInMotion_IsValid(message.at_touch_in_motion())) {

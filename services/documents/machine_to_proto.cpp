@@ -214,6 +214,7 @@ void write_input(const InputConfig& input, proto::Input& message) {
     if (input.number) { message.set_number(*input.number); }
     const bool ends_moves = input.use == InputUse::Probe || input.use == InputUse::Home || input.is_limit_by_message();
     if (!input.axis.empty()) { message.set_axis(input.axis); }
+    if (!input.wire.empty()) { message.set_wire(input.wire); }
     if (input.simulated_bounce_ms != 0) { message.set_simulated_bounce_ms(input.simulated_bounce_ms); }
     if (ends_moves) { message.set_max_overshoot_mm(input.max_overshoot_mm); }
     const TouchInMotion touch = input.at_touch_in_motion;

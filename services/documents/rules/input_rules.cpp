@@ -11,6 +11,7 @@
 #include "services/documents/problem_list.hpp"
 #include "services/documents/rules/limit_input_rules.hpp"
 #include "services/documents/rules/owner_rules.hpp"
+#include "services/documents/rules/wire_rules.hpp"
 
 namespace lockstep {
 namespace {
@@ -48,6 +49,7 @@ private:
         check_overshoot(input, at + "max_overshoot_mm");
         check_touch_in_motion(input, at + "at_touch_in_motion");
         check_owner(machine_, {input.motor, input.at_board}, at, problems_);
+        check_wire(machine_, before.size(), at, problems_);
         const auto motor = std::ranges::find(motors_, input.motor, &MotorConfig::name);
         check_limit_input(machine_, input, motor == motors_.end() ? nullptr : &*motor, at, problems_);
         if (motor != motors_.end()) { check_channel(input, *motor, before, at + "channel"); }

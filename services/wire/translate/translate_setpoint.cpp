@@ -194,7 +194,10 @@ void check_shape(const lockstep_wire_Setpoint& wire, Checks& check) {
 void check_touch(const lockstep_wire_Setpoint& wire, Checks& check) {
     check.within<std::size_t>("the number of touch_motor", wire.touch_motor._length, 0, kMaxTouchInputs);
     check.same("the number of touch_channel", wire.touch_channel._length, wire.touch_motor._length);
-    if (wire.touch_ceases) { check.same("the number of touch_motor with touch_ceases", wire.touch_motor._length, 1U); }
+    if (wire.touch_ceases) {
+        check.within<std::size_t>("the number of touch_motor with touch_ceases", wire.touch_motor._length, 1,
+                                  kMaxTouchInputs);
+    }
     for (const auto motor : elements(wire.touch_motor)) {
         check.within<std::size_t>("touch_motor", motor, 0, kMaxAxes - 1);
     }

@@ -57,7 +57,10 @@ TEST(HostileFrame, WrongCountsAreRefused) {
     expect_frame_refused("number of accelerations", [](auto& m) { m.acceleration._length = 4; });
     expect_frame_refused("number of touch_motor", [](auto& m) { m.touch_motor._length = kMaxTouchInputs + 1; });
     expect_frame_refused("number of touch_channel", [](auto& m) { m.touch_channel._length = 1; });
-    expect_frame_refused("number of touch_motor with touch_ceases", [](auto& m) { m.touch_ceases = true; });
+    expect_frame_refused("number of touch_motor with touch_ceases", [](auto& m) {
+        m.touch_ceases = true;
+        m.touch_motor._length = m.touch_channel._length = 0;
+    });
 }
 
 TEST(HostileFrame, NumbersThatWouldOverflowAreRefused) {
