@@ -147,7 +147,9 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(TouchInMotion, 154, "touch-in-motion", "a probe touched while the machine moved without a probing move", \
       "find out what it touched, and move the axes away after the reset; home them if they were pushed", in_order(Remedy::Reset)) \
     X(EncoderReversed, 155, "encoder-reversed", "the encoder counts against the direction of its motor", \
-      "exchange the channels A and B of the encoder", in_order(Remedy::Reset, Remedy::Home))
+      "exchange the channels A and B of the encoder", in_order(Remedy::Reset, Remedy::Home)) \
+    X(TouchMissed, 156, "touch-missed", "a motor did not stop at the touch of a probe, as its device had to do by itself", \
+      "check the wire from the probe to the input at the device of this motor; the machine may have gone on behind the touch", in_order(Remedy::Reset, Remedy::Home))
 // clang-format on
 
 enum class FaultCode : std::uint16_t {

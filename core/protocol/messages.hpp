@@ -84,13 +84,17 @@ inline constexpr std::size_t kMaxTouchInputs = 8;  // of one probe
 struct TouchInputs {
     StaticVector<TouchInput, kMaxTouchInputs> any_of;  // empty: the epoch ends at no touch
     bool opens = false;                                // they touch when they open
-    bool ceases = false;  // there is one, and the pulses of its device cease at the touch: no other motor moves
+    bool ceases =
+        false;  // all see one switch, and the pulses of their devices cease at the touch: no other motor moves
     bool operator==(const TouchInputs&) const = default;
 
     bool empty() const { return any_of.empty(); }
     /// The input at whose touch the motor's pulses cease; nullopt if they do not.
     std::optional<TouchInput> ceasing(MotorIndex motor) const {
-        return ceases && !empty() && any_of.front().motor == motor ? std::optional(any_of.front()) : std::nullopt;
+        for (const TouchInput& input : any_of) {
+            if (ceases && input.motor == motor) { return input; }
+        }
+        return std::nullopt;
     }
     /// `closed`: as in TouchInput.
     bool is_touched(const TouchInput& input, std::uint32_t closed) const { return input.is_closed(closed) != opens; }

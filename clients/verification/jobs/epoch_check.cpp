@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/hardware/device_abilities.hpp"
+#include "core/coordinator/epoch/touch_place.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/protocol/frame_room.hpp"
 
@@ -98,6 +98,7 @@ std::optional<Shortfall> EpochCheck::shortfall() {
             if (!axes_[least].in_tail && !axes_[least].cut) { return silent(least); }
             return Shortfall{Shortfall::Kind::Differs, found.motor, "ran other frames than the rest"};
         case EpochEnd::Kind::Misplaced:
+        case EpochEnd::Kind::OffTouch:
             return Shortfall{Shortfall::Kind::Differs, found.motor, "is not where its frames end"};
         case EpochEnd::Kind::Complete:
         case EpochEnd::Kind::Interrupted: break;
@@ -126,22 +127,14 @@ EpochEnd EpochCheck::end() const {
 
 bool EpochCheck::ceased(MotorIndex motor) const { return axes_[motor].cut && replay_.touch().ceasing(motor); }
 
-/// A motor whose frames ended before its input had followed the pin rests at their end.
 std::optional<std::string> EpochCheck::rests_off_touch(Tick touched) const {
-    if (!replay_.touch().ceases) { return std::nullopt; }
-    const TouchInput& input = replay_.touch().any_of.front();
-    const MotorConfig motor = motors_of(machine_)[input.motor];
-    const Ticks debounce = setup_of(machine_, motor).debounce[input.channel];
-    constexpr std::int64_t kRates = 1000;  // the clocks' rates differ by less than a thousandth
-    const Ticks within = known_within() + known_within() + Ticks{1 + debounce.value / kRates};
-    const Ticks off = estimates_clock(machine_, input.motor) ? within : Ticks{1};
-    const auto count_at = [&](Tick tick) { return replay_.positions_at(tick, ran())[input.motor].count(); };
-    const std::int64_t before = count_at(touched + debounce - off);
-    const std::int64_t behind = count_at(touched + debounce + off);
-    const std::int64_t rests = axes_[input.motor].at.count();
-    if (rests >= std::min(before, behind) && rests <= std::max(before, behind)) { return std::nullopt; }
-    return fmt::format("motor {} rests at step {}; its pulses had to cease at step {}", motor.name, rests,
-                       count_at(touched + debounce));
+    MotorPositions rests;
+    for (const Progress& axis : axes_) { rests.append(axis.at); }
+    const auto places_at = [&](Tick tick) { return replay_.positions_at(tick, ran()); };
+    const auto off = off_touch(machine_, replay_.touch(), touched, places_at, rests);
+    if (!off) { return std::nullopt; }
+    return fmt::format("motor {} rests at step {}; its pulses had to cease at step {}",
+                       motor_name(machine_, off->motor), off->rests, off->due);
 }
 
 FrameNumber EpochCheck::ran() const { return std::ranges::max_element(axes_, {}, &Progress::ran)->ran; }

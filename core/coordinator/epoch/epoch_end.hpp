@@ -16,13 +16,16 @@ struct EpochEnd {
         Interrupted,   // all axes ran the same frames and rest on the path, where they should
         FramesDiffer,  // the axes did not all run the same frames
         Misplaced,     // an axis is not where its frames end
+        OffTouch,      // a motor does not rest where its pulses had to cease at the touch
     };
     Kind kind = Kind::Complete;
-    MotorIndex motor;  // Misplaced, FramesDiffer: the one concerned
+    MotorIndex motor;  // the one concerned; meaningless if the machine rests on its path
     FrameNumber ran = 0;
     PathPlace place;           // on the program
     MotorPositions positions;  // the exact ones
     bool has_pulses = false;   // devices were told the places of the newest M69
+
+    bool rests_on_path() const { return kind == Kind::Complete || kind == Kind::Interrupted; }
 };
 
 }  // namespace lockstep

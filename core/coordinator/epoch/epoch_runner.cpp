@@ -16,21 +16,39 @@ ProgramDevices devices_at(std::uint32_t block, const SwitchedBy& switched, const
     return devices;
 }
 
-/// A motor whose pulses ceased at the touch, before its frames ended.
-struct Ceased {
-    MotorIndex motor;
-    FrameNumber ran = 0;
-    Position position;
+/// What the axes report of an epoch, while all that are present rest.
+struct Rested {
+    std::optional<FrameNumber> ran;     // the last frame of those whose frames ended
+    std::optional<MotorIndex> differs;  // from them
+    MotorSet ceased;                    // their pulses ceased at the touch, before their frames ended
+    FrameNumber ceased_in = 0;          // the last frame of these
+    MotorIndex ceased_last;
+
+    void end(MotorIndex motor, FrameNumber its) {
+        if (ran && *ran != its) { differs = motor; }
+        ran = std::max(ran.value_or(its), its);
+    }
+    void cease(MotorIndex motor, FrameNumber its) {
+        ceased.insert(motor);
+        if (its >= ceased_in) { ceased_in = its, ceased_last = motor; }
+    }
 };
 
-/// The motor rests on the path before the end, where its pulses ceased. It is misplaced if that is more than a step
-/// outside the frames that are kept, which begin at `begin`.
-void end_early(const Ceased& ceased, Position begin, EpochEnd& end) {
-    const Position rest = end.positions[ceased.motor];
+/// The motor rests on the path before the end, where its pulses ceased at `position`. It is misplaced if that is more
+/// than a step outside the frames that are kept, which begin at `begin`.
+void end_early(MotorIndex motor, Position position, Position begin, EpochEnd& end) {
+    const Position rest = end.positions[motor];
     const Displacement step = Displacement::steps(1);
-    if (ceased.position < std::min(begin, rest) - step || ceased.position > std::max(begin, rest) + step) { return; }
+    if (position < std::min(begin, rest) - step || position > std::max(begin, rest) + step) { return; }
     end.kind = EpochEnd::Kind::Interrupted;
-    end.positions[ceased.motor] = ceased.position;
+    end.positions[motor] = position;
+}
+
+EpochEnd differing(MotorIndex motor) {
+    EpochEnd end;
+    end.kind = EpochEnd::Kind::FramesDiffer;
+    end.motor = motor;
+    return end;
 }
 
 }  // namespace
@@ -148,9 +166,7 @@ std::optional<EpochEnd> EpochRunner::evaluate(Slot now, std::span<const AxisView
         return end;
     }
     const Slot first_start = rules::slot_of(*made_.start(), slot_);
-    std::optional<FrameNumber> ran;
-    std::optional<Ceased> ceased;
-    EpochEnd end;
+    Rested rested;
     for (const MotorIndex m : motor_indices(axes.size())) {
         if (!axes[m].present(now, timing_)) { continue; }
         const AxisState& state = *axes[m].state;
@@ -158,28 +174,19 @@ std::optional<EpochEnd> EpochRunner::evaluate(Slot now, std::span<const AxisView
         const bool settled = state.at_rest && (took_part || state.stamp > first_start + rules::kHopSlots);
         if (!settled) { return std::nullopt; }
         const FrameNumber its = took_part ? state.ran : 0;
-        if (took_part && state.ceased && touch_.ceasing(m)) {
-            if (!state.touch || state.touch->epoch != epoch_) { return std::nullopt; }
-            ceased = Ceased{m, its, state.position};
-            continue;
-        }
-        if (ran && *ran != its) {
-            end.kind = EpochEnd::Kind::FramesDiffer;
-            end.motor = m;
-        }
-        ran = ran ? std::max(*ran, its) : its;
+        const bool has_ceased = took_part && state.ceased && touch_.ceasing(m);
+        if (has_ceased && (!state.touch || state.touch->epoch != epoch_)) { return std::nullopt; }
+        has_ceased ? rested.cease(m, its) : rested.end(m, its);
     }
-    if (ceased && ceased->ran > ran.value_or(ceased->ran)) {
-        end.kind = EpochEnd::Kind::FramesDiffer;
-        end.motor = ceased->motor;
-    }
-    if (ceased && !ran) { ran = ceased->ran; }
-    if (!ran || !made_.keeps(*ran)) { end.kind = EpochEnd::Kind::FramesDiffer; }
-    if (end.kind == EpochEnd::Kind::FramesDiffer) { return end; }
-    end = made_.end_behind(*ran);
-    if (ceased) { end_early(*ceased, history_.at(*made_.start(), end.ran)[ceased->motor], end); }
+    if (rested.differs) { return differing(*rested.differs); }
+    if (rested.ran && rested.ceased_in > *rested.ran) { return differing(rested.ceased_last); }
+    const FrameNumber ran = rested.ran.value_or(rested.ceased_in);
+    if ((!rested.ran && rested.ceased.empty()) || !made_.keeps(ran)) { return differing({}); }
+    EpochEnd end = made_.end_behind(ran);
+    const MotorPositions begin = rested.ceased.empty() ? MotorPositions{} : history_.at(*made_.start(), ran);
+    for (const MotorIndex m : rested.ceased) { end_early(m, axes[m].state->position, begin[m], end); }
     for (const MotorIndex m : motor_indices(axes.size())) {
-        if (axes[m].present(now, timing_) && axes[m].state->position != end.positions[m] && *ran > 0) {
+        if (axes[m].present(now, timing_) && axes[m].state->position != end.positions[m] && ran > 0) {
             end.kind = EpochEnd::Kind::Misplaced;
             end.motor = m;
         }

@@ -57,8 +57,7 @@ void fail_on_path(const activity::OnPath& path, const EpochEnd& end, JobLifecycl
 
 /// Called when every axis is at rest after an epoch.
 void settle(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    const bool rests_on_path = end.kind == EpochEnd::Kind::Interrupted || end.kind == EpochEnd::Kind::Complete;
-    const bool may_end = rests_on_path && path.intent < Intent::Stop;
+    const bool may_end = end.rests_on_path() && path.intent < Intent::Stop;
     const auto probed = may_end ? jobs.path().end_probe(path.task, end, loop) : std::nullopt;
     loop.out.epoch_end = {end.kind, probed ? Intent::Stop : path.intent};
     jobs.path().end_epoch(path.task, end, loop, loop.out.events);
@@ -69,6 +68,7 @@ void settle(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, Coo
     switch (end.kind) {
         case EpochEnd::Kind::FramesDiffer: return jobs.fail_at_rest({FaultCode::FramesDiffer, end.motor}, loop);
         case EpochEnd::Kind::Misplaced: return jobs.fail_at_rest({FaultCode::PositionMismatch, end.motor}, loop);
+        case EpochEnd::Kind::OffTouch: return jobs.fail_at_rest({FaultCode::TouchMissed, end.motor}, loop);
         case EpochEnd::Kind::Interrupted:
             return ends ? jobs.end(JobOutcome::Stopped, loop) : settle_interrupted(path, end, jobs, loop);
         case EpochEnd::Kind::Complete:
@@ -80,7 +80,7 @@ void settle(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, Coo
 void settle_homing_move(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, CoordinatorLoop& loop) {
     activity::Homing homing = *std::move(path.homing);
     const bool goes_on = path.intent == Intent::GoOn;
-    const auto probed = goes_on ? jobs.path().end_probe(path.task, end, loop) : std::nullopt;
+    const auto probed = goes_on && end.rests_on_path() ? jobs.path().end_probe(path.task, end, loop) : std::nullopt;
     if (goes_on && (probed || end.kind == EpochEnd::Kind::Complete)) {
         loop.out.epoch_end = {end.kind, probed ? Intent::Stop : Intent::GoOn};
         jobs.path().end_epoch(path.task, end, loop, loop.out.events);

@@ -174,15 +174,17 @@ std::optional<EpochEnd> PathRunner::advance(const PathTask& task, const LoopView
                             .overrides = change->overrides,
                             .behind = change->behind});
     }
-    const auto end = runner_.evaluate(loop.slot, loop.axes.views());
-    return end && probing_.may_touch_yet(task, *end, runner_, loop) ? std::nullopt : end;
+    auto end = runner_.evaluate(loop.slot, loop.axes.views());
+    if (!end || probing_.may_touch_yet(task, *end, runner_, loop)) { return std::nullopt; }
+    Probing::check_place(*end, runner_, loop);
+    return end;
 }
 
 /// The axes have passed the places of all events before the block in which they rest.
 void PathRunner::end_epoch(PathTask& task, const EpochEnd& end, const LoopView& loop,
                            std::vector<PublishedEvent>& out) {
     const bool is_whole = end.kind == EpochEnd::Kind::Complete;
-    if (is_whole || end.kind == EpochEnd::Kind::Interrupted) {
+    if (end.rests_on_path()) {
         const std::uint32_t before = is_whole ? runner_.source()->end().block : end.place.block;
         for (const PathEvent& event : runner_.source()->events_before(before)) {
             events_.pass(event, of(task, runner_), loop, out);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/check.hpp"
+#include "core/coordinator/epoch/touch_place.hpp"
 #include "core/kinematics/axis_states.hpp"
 #include "core/kinematics/backlash.hpp"
 #include "core/kinematics/motor_inputs.hpp"
@@ -52,7 +53,8 @@ std::optional<Probed> Probing::end_at_begin(const PathTask& task, const TouchInp
                                             const LoopView& loop) {
     awaited_ = untouched(inputs, loop);
     std::optional<FirstTouch> touch;
-    const bool touches = inputs.opens ? awaited_.empty() : awaited_ != inputs;
+    const bool waits_for_all = inputs.opens && !inputs.ceases;  // inputs that see one switch are all closed before
+    const bool touches = waits_for_all ? awaited_.empty() : awaited_ != inputs;
     if (touches) { touch = {loop.now, *touching(inputs, awaited_)}; }
     if (!touch && moves) { return std::nullopt; }
     note(task, touch, positions_of(loop), loop);
@@ -73,8 +75,7 @@ MotorPositions Probing::slides_at(MotorPositions at, const LoopView& loop) const
 
 bool Probing::may_touch_yet(const PathTask& task, const EpochEnd& end, const EpochRunner& runner,
                             const LoopView& loop) {
-    const bool rests_on_path = end.kind == EpochEnd::Kind::Complete || end.kind == EpochEnd::Kind::Interrupted;
-    const bool is_asked = task.probe && !runner.touch().empty() && rests_on_path;
+    const bool is_asked = task.probe && !runner.touch().empty() && end.rests_on_path();
     rested_ = is_asked ? std::optional(rested_.value_or(loop.slot)) : std::nullopt;
     if (!is_asked || !lacks_states(*task.probe, runner, loop)) { rested_.reset(); }
     return waits();
@@ -90,6 +91,16 @@ bool Probing::lacks_states(const Probe& probe, const EpochRunner& runner, const 
     return std::ranges::any_of(inputs, [&](const TouchInput& input) {
         return loop.axes.is_present(input.motor, loop.slot) && loop.axes.state(input.motor)->stamp < known;
     });
+}
+
+void Probing::check_place(EpochEnd& end, const EpochRunner& runner, const LoopView& loop) {
+    const auto touch = end.rests_on_path() ? runner.first_touch(loop.axes.views()) : std::nullopt;
+    if (!touch) { return; }
+    const auto places_at = [&](Tick tick) { return runner.positions_at(tick, end.ran); };
+    const auto off = off_touch(loop.machine, runner.touch(), touch->tick, places_at, end.positions);
+    if (!off) { return; }
+    end.kind = EpochEnd::Kind::OffTouch;
+    end.motor = off->motor;
 }
 
 std::optional<Probed> Probing::end(const PathTask& task, const EpochEnd& end, const EpochRunner& runner,

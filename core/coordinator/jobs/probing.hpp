@@ -26,6 +26,8 @@ public:
     bool may_touch_yet(const PathTask& task, const EpochEnd& end, const EpochRunner& runner, const LoopView& loop);
     /// The epoch rests, and may_touch_yet().
     bool waits() const { return rested_.has_value(); }
+    /// Changes the end of an epoch in which a motor does not rest where its pulses had to cease.
+    static void check_place(EpochEnd& end, const EpochRunner& runner, const LoopView& loop);
     /// Ends a task whose epoch ended behind a touch, or at the end of its move without one. Returns nullopt if it was
     /// interrupted before.
     std::optional<Probed> end(const PathTask& task, const EpochEnd& end, const EpochRunner& runner,

@@ -1,6 +1,9 @@
 #include "core/coordinator/path/probe_cease.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
 
 #include "core/kinematics/motors.hpp"
 #include "core/overrides.hpp"
@@ -8,43 +11,70 @@
 namespace lockstep {
 namespace {
 
+using Inputs = std::vector<const InputConfig*>;
+
 /// From the touch until the pulses cease: the input follows its pin, and the device looks at it at the next tick.
 double seconds_until_ceased(const MachineConfig& machine, const InputConfig& input) {
     return input.debounce_ms * 1e-3 + 2 / machine.ticks_per_second();
 }
 
-/// The motor whose pulses can cease at a touch while it moves only this axis, by the axis's own steps; nullopt: the
-/// probe has inputs at other devices, or other motors move too.
-std::optional<MotorIndex> motor_that_may_cease(const Probe& probe, AxisIndex axis, const MachineConfig& machine,
-                                               const Kinematics& kinematics) {
-    const auto inputs = inputs_of_probe(machine.inputs, probe.input);
-    const auto motor = kinematics.own_motor(axis);
-    if (!motor || inputs.size() != 1 || kinematics.corrects_screw(*motor)) { return std::nullopt; }
-    return motor_named(machine, inputs.front()->motor) == motor ? motor : std::nullopt;
+/// One of them, or inputs of one wire.
+bool are_one_switch(const Inputs& inputs) {
+    const auto is_of_wire = [&](const InputConfig* input) { return input->wire == inputs.front()->wire; };
+    return inputs.size() == 1 || (!inputs.front()->wire.empty() && std::ranges::all_of(inputs, is_of_wire));
+}
+
+/// How much faster than the move a motor is at most, in any direction of the move.
+double greatest_gain(const LinearMap& map, MotorIndex motor, AxisSet axes) {
+    double gain = 0;
+    for (const AxisIndex i : axes) { gain = std::hypot(gain, map.factor(motor, i)); }
+    return gain;
+}
+
+/// The greatest speed of a move of these axes at whose touch the pulses of all its motors can cease, each by the input
+/// at its own device; nullopt: a motor has none, or takes other steps than its axes. By clocks of their own several
+/// motors would cease at different places.
+std::optional<double> greatest_speed_mm_s(const Probe& probe, AxisSet axes, const MachineConfig& machine,
+                                          const Kinematics& kinematics) {
+    const Inputs inputs = inputs_of_probe(machine.inputs, probe.input);
+    const MotorSet motors = kinematics.motors_of_axes(axes);
+    if (motors.empty() || inputs.empty() || !are_one_switch(inputs)) { return std::nullopt; }
+    const LinearMap map = motor_map_of(machine);
+    double most = std::numeric_limits<double>::max();
+    for (const MotorIndex m : motors) {
+        const MotorConfig& motor = kinematics.motors()[m];
+        const auto is_at_motor = [&](const InputConfig* input) { return input->motor == motor.name; };
+        const bool has_own_time = motors.size() > 1 && estimates_clock(machine, m);
+        const bool takes_other_steps = kinematics.corrects_screw(m) || !motor.backlash.is_none();
+        if (std::ranges::none_of(inputs, is_at_motor) || has_own_time || takes_other_steps) { return std::nullopt; }
+        most = std::min(most, motor.start_velocity_mm_s / greatest_gain(map, m, axes));
+    }
+    return most;
 }
 
 }  // namespace
 
-bool ceases_at_touch(const Probe& probe, const ProgramMove& move, AxisIndex axis, const MachineConfig& machine,
+bool ceases_at_touch(const Probe& probe, const ProgramMove& move, AxisSet axes, const MachineConfig& machine,
                      const Kinematics& kinematics) {
-    const auto motor = motor_that_may_cease(probe, axis, machine, kinematics);
-    if (!motor || move.rapid) { return false; }
-    return move.feed_mm_s * greatest_override(move) <= kinematics.motors()[*motor].start_velocity_mm_s;
+    const auto most = greatest_speed_mm_s(probe, axes, machine, kinematics);
+    return most && !move.rapid && move.feed_mm_s * greatest_override(move) <= *most;
 }
 
 double greatest_override(const ProgramMove& move) { return move.is_feed_fixed ? 1 : Overrides::kMost / 100.0; }
 
-double ceased_overshoot_mm(const MachineConfig& machine, const InputConfig& input, const AxisConfig& axis,
-                           double feed_mm_s) {
-    return feed_mm_s * seconds_until_ceased(machine, input) + 1 / axis.steps_per_mm;
+double ceased_overshoot_mm(const MachineConfig& machine, const InputConfig& input, AxisSet axes,
+                           const Kinematics& kinematics, double feed_mm_s) {
+    double step_mm = 0;
+    for (const AxisIndex i : axes) { step_mm = std::hypot(step_mm, kinematics.step_mm(i)); }
+    return feed_mm_s * seconds_until_ceased(machine, input) + step_mm;
 }
 
-std::optional<double> greatest_ceasing_feed_mm_s(const Probe& probe, const InputConfig& input, AxisIndex axis,
+std::optional<double> greatest_ceasing_feed_mm_s(const Probe& probe, const InputConfig& input, AxisSet axes,
                                                  const MachineConfig& machine, const Kinematics& kinematics) {
-    const auto motor = motor_that_may_cease(probe, axis, machine, kinematics);
-    if (!motor) { return std::nullopt; }
-    const double way_mm = input.max_overshoot_mm - 1 / machine.axes[axis].steps_per_mm;
-    return std::min(kinematics.motors()[*motor].start_velocity_mm_s, way_mm / seconds_until_ceased(machine, input));
+    const auto most = greatest_speed_mm_s(probe, axes, machine, kinematics);
+    if (!most) { return std::nullopt; }
+    const double way_mm = input.max_overshoot_mm - ceased_overshoot_mm(machine, input, axes, kinematics, 0);
+    return std::min(*most, way_mm / seconds_until_ceased(machine, input));
 }
 
 }  // namespace lockstep

@@ -47,16 +47,14 @@ double length_of_arc(const ProgramMove& arc, const AxisCounts& from, std::span<c
     return length_mm(arc, {from_mm.begin(), from_mm.size()});
 }
 
-/// The only axis that is elsewhere; nullopt if there is none, or several. An axis that rests a little beyond its
-/// travel, because its motors rest on whole steps, returns with any move (within_travel); that does not count.
-std::optional<AxisIndex> only_difference(const AxisCounts& from, const AxisCounts& to, const Kinematics& kinematics) {
-    std::optional<AxisIndex> only;
+/// The axes that are elsewhere. An axis that rests a little beyond its travel, because its motors rest on whole steps,
+/// returns with any move (within_travel); that does not count.
+AxisSet moved_axes(const AxisCounts& from, const AxisCounts& to, const Kinematics& kinematics) {
+    AxisSet moved;
     for (const AxisIndex i : axis_indices(from.size())) {
-        if (std::abs(to[i] - from[i]) <= kinematics.rest_steps(i)) { continue; }
-        if (only) { return std::nullopt; }
-        only = i;
+        if (std::abs(to[i] - from[i]) > kinematics.rest_steps(i)) { moved.insert(i); }
     }
-    return only;
+    return moved;
 }
 
 void end(Leg& leg, std::uint32_t before, const AxisCounts& at) {
@@ -86,8 +84,8 @@ TouchInputs ProgramPlanner::touch_inputs(const Probe& probe, const Block* move, 
     const auto* const straight = move != nullptr ? std::get_if<ProgramMove>(&move->action) : nullptr;
     AxisCounts to = from;
     if (straight != nullptr && moves(*move, axes, to)) {
-        const auto axis = only_difference(from, to, kinematics_);
-        touch.ceases = axis && ceases_at_touch(probe, *straight, *axis, machine_, kinematics_);
+        const AxisSet moved = moved_axes(from, to, kinematics_);
+        touch.ceases = ceases_at_touch(probe, *straight, moved, machine_, kinematics_);
     }
     for (const InputConfig* const input : inputs_of_probe(machine_.inputs, probe.input)) {
         const auto motor = motor_named(machine_, input->motor);

@@ -38,16 +38,12 @@ std::expected<void, PlanError> refuse(const Block& block, std::string text) {
     return std::unexpected(PlanError{FaultCode::BadProgram, block.line, std::move(text)});
 }
 
-/// The only axis that the move moves; nullopt if it moves several, or none.
-std::optional<AxisIndex> only_axis(const ProgramMove& move, std::span<const AxisIndex> axes,
-                                   std::span<const double> from_mm) {
-    std::optional<AxisIndex> only;
+AxisSet moved_by(const ProgramMove& move, std::span<const AxisIndex> axes, std::span<const double> from_mm) {
+    AxisSet moved;
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        if (move.target_mm[i] == from_mm[i]) { continue; }
-        if (only) { return std::nullopt; }
-        only = axes[i];
+        if (move.target_mm[i] != from_mm[i]) { moved.insert(axes[i]); }
     }
-    return only;
+    return moved;
 }
 
 /// How far the move goes on behind a touch, and the greatest feed with which that is allowed.
@@ -57,17 +53,15 @@ struct Overshoot {
 };
 
 Overshoot overshoot_of(const ProgramMove& move, const Probe& probe, const MachineConfig& machine,
-                       const InputConfig& input, std::optional<AxisIndex> axis, double deceleration_mm_s2) {
+                       const InputConfig& input, AxisSet axes, double deceleration_mm_s2) {
     const double by = greatest_override(move);
     Overshoot found{overshoot_mm(machine, input, move.feed_mm_s * by, deceleration_mm_s2),
                     greatest_probing_feed_mm_s(machine, input, deceleration_mm_s2) / by};
-    if (!axis) { return found; }
     const Kinematics kinematics(machine);
-    const AxisConfig& moved = machine.axes[*axis];
-    if (ceases_at_touch(probe, move, *axis, machine, kinematics)) {
-        found.behind_mm = ceased_overshoot_mm(machine, input, moved, move.feed_mm_s * by);
+    if (ceases_at_touch(probe, move, axes, machine, kinematics)) {
+        found.behind_mm = ceased_overshoot_mm(machine, input, axes, kinematics, move.feed_mm_s * by);
     }
-    const auto most = greatest_ceasing_feed_mm_s(probe, input, *axis, machine, kinematics);
+    const auto most = greatest_ceasing_feed_mm_s(probe, input, axes, machine, kinematics);
     if (most) { found.most_mm_s = std::max(found.most_mm_s, *most / by); }
     return found;
 }
@@ -120,9 +114,9 @@ std::expected<void, PlanError> ProbeCheck::next(const Block& block, const Machin
     }
     has_moved_ = true;
     const double deceleration_mm_s2 = deceleration_of(*move, machine, axes, from_mm);
-    const auto axis = only_axis(*move, axes, from_mm);
+    const AxisSet moved = moved_by(*move, axes, from_mm);
     for (const InputConfig* const input : inputs_of_probe(machine.inputs, probe_->input)) {
-        const Overshoot overshoot = overshoot_of(*move, *probe_, machine, *input, axis, deceleration_mm_s2);
+        const Overshoot overshoot = overshoot_of(*move, *probe_, machine, *input, moved, deceleration_mm_s2);
         const auto fits = check_overshoot(block, *move, overshoot, *input);
         if (!fits) { return fits; }
     }

@@ -10,7 +10,8 @@ namespace lockstep::simtest {
 
 inline constexpr std::array<std::string_view, 9> kMachinePhaseNames{
     "Waiting", "Idle", "Homing", "Running", "Holding", "Paused", "Stopping", "Fault", "Standby"};
-inline constexpr std::array<std::string_view, 4> kEpochEndNames{"Complete", "Interrupted", "FramesDiffer", "Misplaced"};
+inline constexpr std::array<std::string_view, 5> kEpochEndNames{"Complete", "Interrupted", "FramesDiffer", "Misplaced",
+                                                                "OffTouch"};
 inline constexpr std::array<std::string_view, 4> kIntentNames{"GoOn", "Hold", "Stop", "Abort"};
 
 }  // namespace lockstep::simtest

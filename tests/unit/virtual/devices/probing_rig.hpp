@@ -7,7 +7,7 @@ namespace lockstep {
 
 class ProbingRig : public Rig {
 protected:
-    static constexpr std::size_t kProbe = 0;  // the input
+    static constexpr std::size_t kProbe = 0;  // an input
 
     explicit ProbingRig(const VirtualOptions& options) : Rig(options) { vm.observe(log); }
 
@@ -25,7 +25,10 @@ protected:
         const Reply reply = run(program);
         ASSERT_EQ(reply.status, ReplyStatus::Accepted) << reply.text;
     }
-    void touch(bool closed = true) { vm.set_input(kProbe, closed); }
+    /// Changes all inputs of the machine, which are the probe's.
+    void touch(bool closed = true) {
+        for (std::size_t i = 0; i < vm.machine().inputs.size(); ++i) { vm.set_input(i, closed); }
+    }
     /// Begins, and touches while the machine comes to a hold.
     void touch_before_a_hold(const Program& program) {
         begin(program);
