@@ -15,7 +15,7 @@ public:
     void check() {
         for (const auto& [number, epoch] : recording_.epochs) {
             check_sent(epoch.frames);
-            if (epoch.ceases) { check_moves_alone(*epoch.ceases, epoch.frames); }
+            if (!epoch.ceases.empty()) { check_others_rest(epoch.ceases, epoch.frames); }
         }
         for (std::size_t i = 0; i < recording_.motors.size(); ++i) { check_axis(i); }
         check_same();
@@ -35,15 +35,16 @@ private:
         }
     }
 
-    /// A motor whose pulses may cease leaves no other motor on its path. An axis that rests beyond its travel, because
+    /// Motors whose pulses may cease leave no other motor on its path. An axis that rests beyond its travel, because
     /// its motors rest on whole steps, returns with any move.
-    void check_moves_alone(std::size_t motor, const std::map<FrameNumber, SentFrame>& frames) {
+    void check_others_rest(MotorSet ceasing, const std::map<FrameNumber, SentFrame>& frames) {
         for (const auto& [number, frame] : frames) {
             for (std::size_t i = 0; i < frame.shares.size(); ++i) {
                 const Share& share = frame.shares[i];
                 const Displacement way = share.rest - frames.begin()->second.shares[i].from;
                 const bool moves = way > Displacement::steps(2) || way < Displacement::steps(-2);
-                if (i != motor && moves) { object(i, frame.start, "moves, while another motor's pulses may cease"); }
+                if (!moves || ceasing.contains(MotorIndex{i})) { continue; }
+                object(i, frame.start, "moves, while the pulses of other motors may cease");
             }
         }
     }
@@ -89,7 +90,7 @@ private:
         const bool stopped = !recording_.emergencies.empty() || may_be_stopped(recording_, i, lost->at, over);
         if (lost->epoch == 0 || stopped) { return; }
         const SentEpoch& epoch = recording_.epochs.at(lost->epoch);
-        if (epoch.ceases == i) { return; }
+        if (epoch.ceases.contains(MotorIndex{i})) { return; }
         for (FrameNumber k = lost->recorded; k <= lost->armed; ++k) {
             if (steps_to_rest(epoch, i, lost->recorded, k) == net) { return; }
         }
@@ -123,7 +124,7 @@ private:
             return track.commanded - track.clock_error <= e.rests && end >= e.asked;
         });
         const bool stopped = may_be_stopped(recording_, i, track.commanded, track.commanded + track.commanded_ticks);
-        const bool may_cease = epoch->second.ceases == i;
+        const bool may_cease = epoch->second.ceases.contains(MotorIndex{i});
         if (track.cut && !asked && !stopped && !may_cease) { object(i, track.start, "a frame was cut short"); }
     }
 

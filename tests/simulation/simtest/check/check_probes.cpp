@@ -23,6 +23,7 @@ public:
         for (std::size_t m = 0; m < probe_.places.size(); ++m) { check_place(m); }
         if (is_device_at_fault()) { return std::move(violations_); }
         check_time();
+        check_ceased();
         if (probe_.went_on_mm > probe_.most_mm) {
             object("went on for " + text(probe_.went_on_mm) + " mm behind the touch; at most " + text(probe_.most_mm) +
                    " were announced");
@@ -118,6 +119,30 @@ private:
         });
         if (!is_first) {
             object("input " + std::to_string(*probe_.result.input) + " is reported, but it did not touch first");
+        }
+    }
+
+    /// The epoch in motion at a tick; null if none was begun.
+    const SentEpoch* epoch_at(Tick tick) const {
+        const SentEpoch* found = nullptr;
+        for (const auto& [number, epoch] : recording_.epochs) {
+            if (epoch.frames.begin()->second.start <= tick) { found = &epoch; }
+        }
+        return found;
+    }
+
+    /// If pulses cease at the touch, no motor makes any after its input has followed the pin.
+    void check_ceased() {
+        const SentEpoch* const epoch = epoch_at(probe_.result.tick);
+        if (!probe_.is_undisturbed || probe_.touches.empty() || epoch == nullptr || epoch->ceases.empty()) { return; }
+        const TouchRecord& touch = probe_.touches.front();
+        const Ticks rates{touch.debounce.value / 1000};  // the clocks' rates differ by less than a thousandth
+        for (const MotorIndex m : motor_indices(probe_.places.size())) {
+            const Ticks error = error_of(m) + error_of_touches() + rates;
+            const Tick ceased = touch.pressed + touch.bounce + touch.debounce + error + kSeen;
+            const auto steps = recording_.steps_of(job_, m);
+            if (steps.empty() || recording_.motors[m].truth(steps.back()) <= ceased) { continue; }
+            violations_.push_back({"probe", m, probe_.result.tick.value, {}, "makes pulses behind the touch"});
         }
     }
 

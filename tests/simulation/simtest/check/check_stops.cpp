@@ -81,7 +81,7 @@ void check_limit(const Recording& recording, const VirtualFault& fault, Violatio
 void check_cut_is_reported(const Recording& recording, std::size_t i, const Track& track, Violations& violations) {
     const auto next = recording.epochs.upper_bound(track.epoch);
     if (!track.cut || track.epoch == 0 || next == recording.epochs.end()) { return; }
-    if (recording.epochs.at(track.epoch).ceases == i) { return; }
+    if (recording.epochs.at(track.epoch).ceases.contains(MotorIndex{i})) { return; }
     const bool reported = std::ranges::any_of(recording.machine_faults, [&](Tick tick) {
         return tick >= recording.epochs.at(track.epoch).first_sent && tick <= next->second.first_sent;
     });

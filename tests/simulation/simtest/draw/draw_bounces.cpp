@@ -1,6 +1,7 @@
 #include "tests/simulation/simtest/draw/draw_bounces.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "core/coordinator/program/probe_check.hpp"
 #include "tests/simulation/simtest/draw/draw.hpp"
@@ -33,6 +34,11 @@ void give_bounces(std::uint64_t seed, Scenario& scenario) {
         const double most_ms = is_short ? 0.9 * input.debounce_ms : 10;
         input.simulated_bounce_ms = most_ms * draw.part();
         leave_room(scenario.machine, input);
+    }
+    std::map<std::string, double> of_wires;  // a wire has one contact
+    for (InputConfig& input : scenario.machine.inputs) {
+        if (input.wire.empty()) { continue; }
+        input.simulated_bounce_ms = of_wires.try_emplace(input.wire, input.simulated_bounce_ms).first->second;
     }
 }
 

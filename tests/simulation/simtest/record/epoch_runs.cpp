@@ -46,7 +46,7 @@ bool is_emergency_in(const Recording& recording, const SentEpoch& epoch) {
 /// True: pulses may have ceased anywhere; the net number of steps then proves nothing.
 bool may_be_cut(const Recording& recording, const SentEpoch& epoch, std::size_t axis) {
     const SentFrame& last = epoch.frames.rbegin()->second;
-    return is_emergency_in(recording, epoch) || epoch.ceases == axis ||
+    return is_emergency_in(recording, epoch) || epoch.ceases.contains(MotorIndex{axis}) ||
            may_be_stopped(recording, axis, epoch.frames.begin()->second.start, last.start + last.ticks);
 }
 
@@ -82,7 +82,7 @@ std::vector<bool> may_differ(const Recording& recording, const SentEpoch& epoch)
     return may;
 }
 
-/// Of the motor whose pulses cease at a touch: it was cut, perhaps before its first frame. Nobody knows what it would
+/// Of a motor whose pulses cease at a touch: it was cut, perhaps before its first frame. Nobody knows what it would
 /// have run otherwise.
 bool may_have_ceased(const MotorRecord& motor, Epoch epoch) {
     const auto last = std::ranges::find(motor.tracks.rbegin(), motor.tracks.rend(), epoch, &Track::epoch);
@@ -110,7 +110,9 @@ EpochRuns runs_of(const Recording& recording, Epoch number, const SentEpoch& epo
         for (const LostRun& lost : axis.lost) {
             if (lost.epoch == number) { last = from_steps(recording, lost, epoch, i); }
         }
-        if (epoch.ceases == i && may_have_ceased(axis, number)) { last.high = epoch.frames.rbegin()->first; }
+        if (epoch.ceases.contains(MotorIndex{i}) && may_have_ceased(axis, number)) {
+            last.high = epoch.frames.rbegin()->first;
+        }
         runs.last.push_back(last);
         if (was_stopped(recording, number, epoch, i)) { runs.may_differ[i] = true; }
         runs.lost_device.push_back(has_lost_device(recording, epoch, i));

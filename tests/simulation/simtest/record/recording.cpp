@@ -171,7 +171,9 @@ void Recorder::keep(const AxisCommand& order, Tick now) {
 
 void Recorder::keep(const Frame& frame, Tick now) {
     SentEpoch begun{.writer = frame.term, .first_sent = now, .frames = {}};
-    if (frame.touch.ceases) { begun.ceases = frame.touch.any_of.front().motor; }
+    for (const TouchInput& input : frame.touch.any_of) {
+        if (frame.touch.ceases) { begun.ceases.insert(input.motor); }
+    }
     SentEpoch& epoch = recording_.epochs.try_emplace(frame.epoch, std::move(begun)).first->second;
     if (epoch.writer != frame.term) {
         recording_.troubles.push_back("epoch " + std::to_string(frame.epoch) + " has two writers");

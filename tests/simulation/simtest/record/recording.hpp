@@ -104,7 +104,7 @@ struct SentEpoch {
     Term writer;
     Tick first_sent;
     std::map<FrameNumber, SentFrame> frames;
-    std::optional<std::size_t> ceases;  // the motor whose pulses cease at a touch
+    MotorSet ceases;  // the motors whose pulses cease at a touch
 };
 
 /// A coordinator claims the machine.

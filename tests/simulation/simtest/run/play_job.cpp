@@ -411,7 +411,12 @@ void JobPlayer::touch(const Interrupt& interrupt) {
         touches_.push_back(touch_record(bench_.machine(), input, bench_.vm().now()));
         bench_.set_input(input, true);
     };
-    press(inputs[interrupt.touched]);
+    const std::size_t first = inputs[interrupt.touched];
+    press(first);
+    for (const std::size_t input : inputs) {
+        const std::string& wire = bench_.machine().inputs[input].wire;
+        if (input != first && !wire.empty() && wire == bench_.machine().inputs[first].wire) { press(input); }
+    }
     if (interrupt.next_after_s) {
         if (*interrupt.next_after_s > 0) { bench_.wait(*interrupt.next_after_s); }
         press(inputs[1 - interrupt.touched]);
