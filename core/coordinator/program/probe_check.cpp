@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "core/coordinator/path/probe_cease.hpp"
@@ -19,19 +18,6 @@ double seconds_until_braking(const MachineConfig& machine, const InputConfig& in
     const ProtocolTiming& timing = machine.timing;
     const int slots = 2 + timing.stall_slots + timing.lease_slots() + timing.frame_slots;
     return input.debounce_ms * 1e-3 + slots * static_cast<double>(machine.timing.slot_us) * 1e-6;
-}
-
-/// The deceleration along a straight move that no axis's limit forbids.
-double deceleration_of(const ProgramMove& move, const MachineConfig& machine, std::span<const AxisIndex> axes,
-                       std::span<const double> from_mm) {
-    double length = 0;
-    for (std::size_t i = 0; i < axes.size(); ++i) { length = std::hypot(length, move.target_mm[i] - from_mm[i]); }
-    double most = std::numeric_limits<double>::max();
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-        const double share = std::abs(move.target_mm[i] - from_mm[i]) / length;
-        if (share > 0) { most = std::min(most, machine.axes[axes[i]].max_decel_mm_s2 / share); }
-    }
-    return most;
 }
 
 std::expected<void, PlanError> refuse(const Block& block, std::string text) {
@@ -53,10 +39,10 @@ struct Overshoot {
 };
 
 Overshoot overshoot_of(const ProgramMove& move, const Probe& probe, const MachineConfig& machine,
-                       const InputConfig& input, AxisSet axes, double deceleration_mm_s2) {
+                       const InputConfig& input, AxisSet axes, const Braking& braking) {
     const double by = greatest_override(move);
-    Overshoot found{overshoot_mm(machine, input, move.feed_mm_s * by, deceleration_mm_s2),
-                    greatest_probing_feed_mm_s(machine, input, deceleration_mm_s2) / by};
+    Overshoot found{overshoot_mm(machine, input, move.feed_mm_s * by, braking),
+                    greatest_probing_feed_mm_s(machine, input, braking) / by};
     const Kinematics kinematics(machine);
     if (ceases_at_touch(probe, move, axes, machine, kinematics)) {
         found.behind_mm = ceased_overshoot_mm(machine, input, axes, kinematics, move.feed_mm_s * by);
@@ -81,15 +67,23 @@ std::expected<void, PlanError> check_overshoot(const Block& block, const Program
 
 }  // namespace
 
-double overshoot_mm(const MachineConfig& machine, const InputConfig& input, double feed_mm_s,
-                    double deceleration_mm_s2) {
-    return feed_mm_s * seconds_until_braking(machine, input) + feed_mm_s * feed_mm_s / (2 * deceleration_mm_s2);
+double overshoot_mm(const MachineConfig& machine, const InputConfig& input, double feed_mm_s, const Braking& braking) {
+    const double at_speed_mm = feed_mm_s * seconds_until_braking(machine, input) + braking.before_mm();
+    return at_speed_mm + feed_mm_s * feed_mm_s / (2 * braking.mm_s2(feed_mm_s));
 }
 
-/// The positive root of v^2 / 2a + v t = s.
-double greatest_probing_feed_mm_s(const MachineConfig& machine, const InputConfig& input, double deceleration_mm_s2) {
-    const double gained = deceleration_mm_s2 * seconds_until_braking(machine, input);
-    return std::sqrt(gained * gained + 2 * deceleration_mm_s2 * input.max_overshoot_mm) - gained;
+/// The positive root of v^2 / 2a + v t = s. If a falls with v, it is less.
+double greatest_probing_feed_mm_s(const MachineConfig& machine, const InputConfig& input, const Braking& braking) {
+    const double gained = braking.mm_s2(0) * seconds_until_braking(machine, input);
+    const double way_mm = std::max(0.0, input.max_overshoot_mm - braking.before_mm());
+    double most = std::sqrt(gained * gained + 2 * braking.mm_s2(0) * way_mm) - gained;
+    if (braking.is_constant()) { return most; }
+    double least = 0;
+    for (int halvings = 0; halvings < 60; ++halvings) {
+        const double middle = (least + most) / 2;
+        (overshoot_mm(machine, input, middle, braking) <= input.max_overshoot_mm ? least : most) = middle;
+    }
+    return least;
 }
 
 Slot slots_until_known(const InputConfig& input, const MachineConfig& machine) {
@@ -113,10 +107,10 @@ std::expected<void, PlanError> ProbeCheck::next(const Block& block, const Machin
         return refuse(block, "behind a probe must be one straight move with a feed");
     }
     has_moved_ = true;
-    const double deceleration_mm_s2 = deceleration_of(*move, machine, axes, from_mm);
+    const Braking braking = Braking::of_move(machine, axes, from_mm, move->target_mm);
     const AxisSet moved = moved_by(*move, axes, from_mm);
     for (const InputConfig* const input : inputs_of_probe(machine.inputs, probe_->input)) {
-        const Overshoot overshoot = overshoot_of(*move, *probe_, machine, *input, moved, deceleration_mm_s2);
+        const Overshoot overshoot = overshoot_of(*move, *probe_, machine, *input, moved, braking);
         const auto fits = check_overshoot(block, *move, overshoot, *input);
         if (!fits) { return fits; }
     }

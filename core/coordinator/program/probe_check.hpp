@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "core/coordinator/path/braking.hpp"
 #include "core/coordinator/path/program_plan.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
@@ -13,13 +14,12 @@ namespace lockstep {
 
 /// How far a move may go on behind a touch if a veto ends it, in mm. From the touch on, its speed is kept for at most
 /// the debounce of the input, two slots until the axis's state carries the veto, a stall of its process, the lease, and
-/// a frame (docs/protocol.md). Then the tail brakes it. `feed_mm_s`: along the move; `deceleration_mm_s2`: at which it
-/// can brake.
-double overshoot_mm(const MachineConfig& machine, const InputConfig& input, double feed_mm_s,
-                    double deceleration_mm_s2);
+/// a frame (docs/protocol.md). Then the tail brakes it. `feed_mm_s`: along the move. Infinite: nobody knows how well
+/// the move brakes at this feed.
+double overshoot_mm(const MachineConfig& machine, const InputConfig& input, double feed_mm_s, const Braking& braking);
 
-/// The greatest feed for which overshoot_mm() is at most max_overshoot_mm.
-double greatest_probing_feed_mm_s(const MachineConfig& machine, const InputConfig& input, double deceleration_mm_s2);
+/// The greatest feed for which overshoot_mm() is at most max_overshoot_mm; 0: it never is.
+double greatest_probing_feed_mm_s(const MachineConfig& machine, const InputConfig& input, const Braking& braking);
 
 /// Within so many slots every change of an input is known from the states of its axis: the input follows its pin, the
 /// device is read, the axis decides, publishes, and its state arrives.

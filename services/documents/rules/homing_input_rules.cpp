@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/coordinator/program/probe_check.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep {
@@ -16,11 +17,21 @@ bool is_of_delta(const AxisConfig& axis, const MachineConfig& machine) {
     return delta && (axis.name == delta->x || axis.name == delta->y || axis.name == delta->z);
 }
 
+bool corrects_screw(const AxisConfig& axis, const MachineConfig& machine) {
+    const MotorMap map = step_map_of(machine);
+    const AxisIndex i = machine.axis_named(axis.name).value();
+    for (const MotorIndex m : motor_indices(map.motors())) {
+        if (map.screw(m) != nullptr && map.shares().factor(m, i) != 0) { return true; }
+    }
+    return false;
+}
+
 void check_overshoot(const MachineConfig& machine, const AxisConfig& axis, const InputConfig& input,
                      ProblemList& problems) {
     const double speed = axis.homing.search_velocity_mm_s;
-    const double behind = overshoot_mm(machine, input, speed, axis.max_decel_mm_s2);
-    const double most = greatest_probing_feed_mm_s(machine, input, axis.max_decel_mm_s2);
+    const Braking braking = Braking::of_axis(machine, machine.axis_named(axis.name).value());
+    const double behind = overshoot_mm(machine, input, speed, braking);
+    const double most = greatest_probing_feed_mm_s(machine, input, braking);
     problems.require(
         behind <= input.max_overshoot_mm, "homing.search_velocity_mm_s",
         fmt::format("homing.search_velocity_mm_s is {}, with which the axis may go on for {} mm behind its switch, and "
@@ -51,6 +62,11 @@ void check_homing_input(const MachineConfig& machine, const AxisConfig& axis, Pr
     problems.require(!is_of_delta(axis, machine), "homing.input",
                      "homing.input is given, but the axis is of a delta, whose carriages home by their own switches; "
                      "remove it");
+    problems.require(
+        !corrects_screw(axis, machine), "homing.input",
+        "homing.input is given, and a motor of the axis corrects its screw: until the axis is homed nobody "
+        "knows which part of the screw moves it, so the way from the switch would be wrong; remove screw, "
+        "or wire the switch to the device of the axis's motor and remove input");
     if (is_switch) { check_overshoot(machine, axis, *input, problems); }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/coordinator/program/probe_check.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep {
@@ -16,11 +17,26 @@ bool moves_alone(const MotorConfig& motor, const MachineConfig& machine, AxisInd
     return motor.axis == axis && motor.moves_one_axis && machine.axes[axis].motors.size() < 2;
 }
 
+/// With which the axis surely brakes from its max_velocity_mm_s, whatever else moves: on a path all brake together, and
+/// the axis or motor that takes longest decides.
+double sure_deceleration_mm_s2(const MachineConfig& machine, const AxisConfig& axis) {
+    double longest_s = axis.max_velocity_mm_s / axis.max_decel_mm_s2;
+    const auto brake = [&](const Moving auto& part) {
+        if (part.max_decel_mm_s2 > 0) {
+            longest_s = std::max(longest_s, part.max_velocity_mm_s / part.max_decel_mm_s2);
+        }
+    };
+    std::ranges::for_each(machine.axes, brake);
+    std::ranges::for_each(moving_motors_of(machine), brake);
+    return axis.max_velocity_mm_s / longest_s;
+}
+
 void check_room(const MachineConfig& machine, const AxisConfig& axis, const InputConfig& input, const std::string& at,
                 ProblemList& problems) {
     const std::string key = at + "max_overshoot_mm";
-    const double behind = overshoot_mm(machine, input, axis.max_velocity_mm_s, axis.max_decel_mm_s2);
-    const double most = greatest_probing_feed_mm_s(machine, input, axis.max_decel_mm_s2);
+    const Braking braking(sure_deceleration_mm_s2(machine, axis));
+    const double behind = overshoot_mm(machine, input, axis.max_velocity_mm_s, braking);
+    const double most = greatest_probing_feed_mm_s(machine, input, braking);
     problems.require_between(
         {key, at + "debounce_ms"}, behind <= input.max_overshoot_mm || !(axis.max_decel_mm_s2 > 0),
         fmt::format("max_overshoot_mm of input {} is {}, and at its max_velocity_mm_s {} axis {} may go on for {} mm "

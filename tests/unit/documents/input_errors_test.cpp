@@ -119,6 +119,16 @@ TEST(Inputs, OneSwitchDoesNotMakeTheMotorsOfAnAxisSquare) {
     EXPECT_EQ(error_of(text), "no error");
 }
 
+TEST(Inputs, AnAxisThatCorrectsItsScrewDoesNotHomeByATouch) {
+    std::string text =
+        homed_by(R"(input: "x_home" search_velocity_mm_s: 0.5)", R"(name: "x_home" motor: "X" channel: 3 use: HOME)");
+    const std::string axis = "axis {";
+    text.insert(text.find(axis) + axis.size(),
+                " screw { point { position_mm: 0 error_mm: 0 } point { position_mm: 50 error_mm: 0.01 } }");
+    EXPECT_THAT(error_of(text),
+                HasSubstr("a motor of the axis corrects its screw: until the axis is homed nobody knows"));
+}
+
 /// The shortest machine with this input, and with the board if the input is there.
 std::string with_limit(const std::string& input) {
     const std::string board = input.starts_with("board") ? "board { name: \"IO\" }\n" : "";

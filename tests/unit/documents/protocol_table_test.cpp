@@ -68,7 +68,7 @@ double ms_to_braking(const ProtocolTiming& t) {
     constexpr double kAtOnce = 1e300;
     MachineSetup machine;
     machine.timing = t;
-    return 1000 * overshoot_mm(machine, {.debounce_ms = 1}, 1, kAtOnce);
+    return 1000 * overshoot_mm(machine, {.debounce_ms = 1}, 1, Braking(kAtOnce));
 }
 
 std::vector<std::string> figures_of_a_touch(const ProtocolTiming& t) {

@@ -74,7 +74,8 @@ TEST_F(ProbingMoves, GoesOnBehindTheTouchForNoMoreThanWasAnnounced) {
     const MachineConfig machine = machine_with_probe();
     const double behind = static_cast<double>(counts()[kX]) / 100 - result().places_mm[kX];
     EXPECT_GT(behind, 0);
-    EXPECT_LE(behind, overshoot_mm(machine, machine.inputs[kProbe], kFeed_mm_s, machine.axes[kX].max_decel_mm_s2));
+    EXPECT_LE(behind,
+              overshoot_mm(machine, machine.inputs[kProbe], kFeed_mm_s, Braking::of_axis(machine, AxisIndex{kX})));
 }
 
 TEST_F(ProbingMoves, TheAxisKnowsItInTheLoopThatReadsItsDevice) {
@@ -93,7 +94,8 @@ TEST_F(ProbingMoves, TheAxisKnowsItInTheLoopThatReadsItsDevice) {
 TEST_F(ProbingMoves, MustBoundItsWayBehindTheTouchWithEveryOverride) {
     home();
     const MachineConfig machine = machine_with_probe();
-    const double most = greatest_probing_feed_mm_s(machine, machine.inputs[kProbe], machine.axes[kX].max_decel_mm_s2);
+    const double most =
+        greatest_probing_feed_mm_s(machine, machine.inputs[kProbe], Braking::of_axis(machine, AxisIndex{kX}));
     Program program = probe_to({35, 5});
     auto& move = std::get<ProgramMove>(program.blocks.back().action);
     move.feed_mm_s = 0.6 * most;

@@ -18,7 +18,8 @@ void leave_room(MachineConfig& machine, InputConfig& input) {
         const double half_mm = input.max_overshoot_mm / 2;
         input.simulated_bounce_ms = std::min(input.simulated_bounce_ms, half_mm / homing.search_velocity_mm_s * 1e3);
         input.max_overshoot_mm -= homing.search_velocity_mm_s * bounce_seconds(input);
-        const double most = 0.99 * greatest_probing_feed_mm_s(machine, input, axis.max_decel_mm_s2);
+        const Braking braking = Braking::of_axis(machine, machine.axis_named(axis.name).value());
+        const double most = 0.99 * greatest_probing_feed_mm_s(machine, input, braking);
         homing.search_velocity_mm_s = std::min(homing.search_velocity_mm_s, most);
         homing.latch_velocity_mm_s = std::min(homing.latch_velocity_mm_s, homing.search_velocity_mm_s);
     }

@@ -1,6 +1,7 @@
 #include "tests/simulation/simtest/draw/draw_probes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/coordinator/program/probe_check.hpp"
@@ -14,7 +15,6 @@ namespace {
 constexpr int kChannel = 5;
 constexpr int kSecondChannel = 6;
 constexpr double kAnyOvershoot_mm = 1000;
-constexpr double kBelow = 1 - 1e-12;  // a limit, whatever its rounding
 
 Interrupt interrupt_of(Draw& draw, Interrupt::Kind kind) {
     Interrupt interrupt{.kind = kind, .wrong = {}};
@@ -23,13 +23,19 @@ Interrupt interrupt_of(Draw& draw, Interrupt::Kind kind) {
     return interrupt;
 }
 
-/// Slows the probing move so that any probe bears it.
+/// Slows the probing move so that any probe bears it, wherever it begins. At a speed at which each axis alone has half
+/// of its deceleration left, a move of several has so much, in steps of the slowest of them.
 void bear(const MachineConfig& machine, ProgramMove& move) {
     double least_decel = std::numeric_limits<double>::max();
-    for (const AxisConfig& axis : machine.axes) { least_decel = std::min(least_decel, axis.max_decel_mm_s2); }
+    for (const AxisIndex i : axis_indices(machine.axes.size())) {
+        const Braking braking = Braking::of_axis(machine, i);
+        while (braking.mm_s2(move.feed_mm_s) < braking.mm_s2(0) / 2) { move.feed_mm_s *= 0.7; }
+        least_decel = std::min(least_decel, braking.mm_s2(0));
+    }
+    const Braking together(least_decel / 2 / std::sqrt(static_cast<double>(machine.axes.size())));
     for (const std::size_t input : probe_inputs(machine)) {
-        const double most = greatest_probing_feed_mm_s(machine, machine.inputs[input], least_decel);
-        move.feed_mm_s = std::min(move.feed_mm_s, most * kBelow);
+        const double most = greatest_probing_feed_mm_s(machine, machine.inputs[input], together);
+        move.feed_mm_s = std::min(move.feed_mm_s, most);
     }
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/coordinator/program/probe_check.hpp"
 #include "core/kinematics/motors.hpp"
@@ -28,20 +27,34 @@ std::int64_t count_before(const Recording& recording, const JobRecord& job, std:
     return after;
 }
 
+/// Of the probing move, which begins where the motors are at `from`.
+Braking braking_of(const Bench& bench, const Program& program, const Counts& from) {
+    const MachineConfig& machine = bench.machine();
+    const Counts begin = bench.axes_at(from);
+    std::vector<AxisIndex> axes;
+    std::vector<double> from_mm;
+    for (const std::string& name : program.axes) {
+        const AxisIndex i = machine.axis_named(name).value();
+        axes.push_back(i);
+        from_mm.push_back(static_cast<double>(begin[i]) / machine.axes[i].steps_per_mm);
+    }
+    return Braking::of_move(machine, axes, from_mm, std::get<ProgramMove>(program.blocks.back().action).target_mm);
+}
+
 /// The way behind the touch, and what was announced of it. The axes rest within their steps of the path.
-void measure(const Bench& bench, double feed_mm_s, const Counts& at, ProbeRecord& record) {
+void measure(const Bench& bench, const Program& program, const Counts& at, ProbeRecord& record) {
+    const double feed_mm_s = std::get<ProgramMove>(program.blocks.back().action).feed_mm_s;
+    const Braking braking = braking_of(bench, program, record.from);
     const MachineConfig& machine = bench.machine();
     const Counts rest = bench.axes_at(at);
-    double most_decel = std::numeric_limits<double>::max();
     double steps_mm = 0;
     for (const AxisIndex i : axis_indices(machine.axes.size())) {
         const double mm = static_cast<double>(rest[i]) / machine.axes[i].steps_per_mm - record.result.places_mm[i];
         record.went_on_mm = std::hypot(record.went_on_mm, mm);
         steps_mm += 2 * bench.kinematics().step_mm(i);
-        most_decel = std::min(most_decel, machine.axes[i].max_decel_mm_s2);
     }
     for (const std::size_t input : probe_inputs(machine)) {
-        const double announced = overshoot_mm(machine, machine.inputs[input], feed_mm_s, most_decel);
+        const double announced = overshoot_mm(machine, machine.inputs[input], feed_mm_s, braking);
         const double allowed = std::min(announced, machine.inputs[input].max_overshoot_mm);
         record.most_mm = std::max(record.most_mm, allowed + steps_mm);
     }
@@ -83,7 +96,7 @@ ProbeRecord probe_record(Bench& bench, const Program& program, const JobRecord& 
         record.places.push_back(bench.map().place(m, places));
         record.within.push_back(within_steps(bench, m));
     }
-    measure(bench, std::get<ProgramMove>(program.blocks.back().action).feed_mm_s, at, record);
+    measure(bench, program, at, record);
     return record;
 }
 

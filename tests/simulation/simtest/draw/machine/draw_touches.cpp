@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/coordinator/program/probe_check.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "core/kinematics/motors.hpp"
 #include "tests/simulation/simtest/draw/draw.hpp"
 #include "tests/simulation/simtest/draw/draw_machine.hpp"
@@ -37,12 +38,23 @@ std::optional<InputConfig> draw_switch(Draw& draw, const MachineConfig& machine,
     return !is_taken && input.max_overshoot_mm > 0.001 ? std::optional(input) : std::nullopt;
 }
 
+/// Such an axis does not home by touch.
+bool corrects_screw(const MachineConfig& machine, const AxisConfig& axis) {
+    const Kinematics kinematics(machine);
+    for (const MotorIndex m : kinematics.motors_of_axes({machine.axis_named(axis.name).value()})) {
+        if (kinematics.corrects_screw(m)) { return true; }
+    }
+    return false;
+}
+
 /// Leaves the axis as it is if its searches would take too long.
 bool give_switch(Draw& draw, AxisConfig& axis, MachineConfig& machine) {
+    if (corrects_screw(machine, axis)) { return false; }
     const auto input = draw_switch(draw, machine, axis);
     if (!input) { return false; }
     AxisConfig slower = axis;
-    const double most = 0.99 * greatest_probing_feed_mm_s(machine, *input, axis.max_decel_mm_s2);
+    const Braking braking = Braking::of_axis(machine, machine.axis_named(axis.name).value());
+    const double most = 0.99 * greatest_probing_feed_mm_s(machine, *input, braking);
     slower.homing.search_velocity_mm_s = std::min(axis.homing.search_velocity_mm_s, most);
     slower.homing.latch_velocity_mm_s = std::min(axis.homing.latch_velocity_mm_s, slower.homing.search_velocity_mm_s);
     if (search_slots(slower, machine.timing) > kMostSlots) { return false; }
