@@ -26,6 +26,8 @@ struct Expected {
 
 /// Complete, and as commanded.
 inline constexpr Expected kValid{};
+/// A job failed. Its steps are as planned.
+inline constexpr Expected kFailed{kSaysGood, kSaysDoubtful | kSaysBad, kSaysGood, kSaysGood};
 /// Messages are lost: nobody can say whether the motion was right.
 inline constexpr Expected kLost{kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysUnknown, kSaysUnknown};
 /// Steps and runs contradict each other. A merge does not compare them.

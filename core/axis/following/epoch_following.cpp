@@ -113,7 +113,7 @@ void EpochFollowing::observe(AxisLoop& loop) {
 
 /// The device has begun a tail, perhaps while this process stalled after it had decided on a frame. Others may be
 /// running that frame. From here on the state of this axis must be no evidence for them. If its pulses ceased at a
-/// touch, no other motor moves.
+/// touch, those of all other motors that move did so too.
 bool EpochFollowing::is_left_behind(const DeviceStatus& device) const {
     const bool has_ended = device.finished && !has_ceased_;
     return device.in_tail || (has_ended && !follower_.is_complete(device.frame));

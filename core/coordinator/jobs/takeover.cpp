@@ -139,7 +139,7 @@ bool may_have_pulses(const MachineState& last, const KnownProgram& program, std:
 std::string_view text_of(TakeoverDoubt doubt) {
     return pick_name(
         {"a takeover stops the job; with --on-takeover continue it continues the job",
-         "the job was held, paused or stopping, or it is not a program",
+         "the job was held, paused, stopping or in a probing move, or it is not a program",
          "a hold or stop was commanded during the takeover", "this coordinator does not have the job's program",
          "the last owner's reports of the job do not match its program",
          "an axis is missing, was restarted, is not homed or has a fault", "the axes did not all run the same frames",

@@ -7,9 +7,8 @@ namespace {
 const std::string kSquare = "G21 G90 F3000\nG1 X40 Y8\nX42 Y40\nG4 P0.1\nG0 X10 Y40\nX5 Y5\n";
 const std::string kArcs = "G21 G90\nG0 X20 Y20\nG2 X40 Y20 I10 J0 F2400\nG3 X60 Y20 I10 J0\nG1 X5 Y5\n";
 
-/// A stopped job is doubtful, and a failed one bad. Its steps are as planned.
+/// A stopped job is doubtful. Its steps are as planned.
 constexpr Expected kStopped{kSaysGood, kSaysDoubtful, kSaysGood, kSaysGood};
-constexpr Expected kFailed{kSaysGood, kSaysDoubtful | kSaysBad, kSaysGood, kSaysGood};
 
 /// Homes, begins the program and drives it; the rest of the program runs to its end.
 RecordKind driven(std::string name, const std::string& gcode, std::function<void(MachineRun&)> drive,

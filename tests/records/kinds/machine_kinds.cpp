@@ -81,20 +81,47 @@ Record sent_in_parts() {
     return run.finish();
 }
 
-/// A probe at the device of X touches in a slow move to this place, and the next program goes back.
-Record probed(VirtualOptions options, const std::string& place) {
-    options.machine.inputs = {
-        {.name = "probe", .motor = "X", .channel = 3, .use = InputUse::Probe, .number = 0, .max_overshoot_mm = 20}};
+/// Inputs of one probe, at the devices of these motors; several see one switch.
+std::vector<InputConfig> probe_at(const std::vector<std::string>& motors) {
+    std::vector<InputConfig> inputs;
+    for (const std::string& motor : motors) {
+        inputs.push_back({.name = "probe" + motor,
+                          .motor = motor,
+                          .channel = 3,
+                          .use = InputUse::Probe,
+                          .number = 0,
+                          .max_overshoot_mm = 20,
+                          .wire = motors.size() > 1 ? "tip" : ""});
+    }
+    return inputs;
+}
+
+/// A probe at the devices of these motors touches in a slow move to this place, and the next program goes back.
+Record probed(VirtualOptions options, const std::string& place, const std::vector<std::string>& motors = {"X"}) {
+    options.machine.inputs = probe_at(motors);
     MachineRun run(options);
     run.home();
     run.begin("G38.2 " + place + " F300\n");
     run.wait_ms(700);
-    run.vm().set_input(0, true);
+    for (std::size_t i = 0; i < motors.size(); ++i) { run.vm().set_input(i, true); }
     run.to_rest();
-    run.vm().set_input(0, false);
+    for (std::size_t i = 0; i < motors.size(); ++i) { run.vm().set_input(i, false); }
     run.wait_ms(100);
     run.run("G0 X5 Y5\n");
     run.wait_ms(200);
+    return run.finish();
+}
+
+/// The switch is wired to both motors, and one of the wires is broken: its motor goes on until the veto.
+Record probed_by_a_broken_wire() {
+    VirtualOptions options = options_of(small_plotter());
+    options.machine.inputs = probe_at({"X", "Y"});
+    MachineRun run(options);
+    run.home();
+    run.begin("G38.2 X20 Y9 F300\n");
+    run.wait_ms(700);
+    run.vm().set_input(0, true);
+    run.wait_ms(1000);
     return run.finish();
 }
 
@@ -136,6 +163,15 @@ std::vector<RecordKind> machine_kinds() {
         {"program_sent_in_parts", sent_in_parts},
         {"touch_in_a_move_of_two_axes", [] { return probed(options_of(small_plotter()), "X20 Y9"); }},
         {"touch_at_which_pulses_cease", [] { return probed(options_of(small_plotter()), "X20"); }},
+        {"touch_at_which_the_pulses_of_a_gantry_cease",
+         [] {
+             return probed(options_of(small_gantry()), "X20", {"X", "X2"});
+         }},
+        {"touch_at_which_the_pulses_of_belts_cease",
+         [] {
+             return probed(options_of(small_core_xy()), "X20", {"X", "Y"});
+         }},
+        {"touch_that_a_device_misses", probed_by_a_broken_wire, kFailed},
         {"touch_at_which_pulses_cease_by_own_clock", [] { return probed(own_clocks(small_plotter()), "X20"); }},
     };
 }

@@ -38,16 +38,23 @@ protected:
         ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
         ASSERT_FALSE(recorded.vm().state()->probe->touched());
     }
-    /// A move of X alone, whose pulses cease at the touch.
-    static void record_ceasing() {
+    /// A move of X alone, or of both axes with the same switch, whose pulses cease at the touch.
+    static void record_ceasing(std::vector<std::string> motors = {"X"}) {
         MachineSetup machine = test::example("two-axis");
-        machine.inputs = {{.name = "probe", .motor = "X", .channel = 3, .use = InputUse::Probe, .number = 0}};
+        for (const std::string& motor : motors) {
+            machine.inputs.push_back({.name = "probe_" + motor,
+                                      .motor = motor,
+                                      .channel = 3,
+                                      .use = InputUse::Probe,
+                                      .number = 0,
+                                      .wire = motors.size() > 1 ? "tip" : ""});
+        }
         test::RecordedMachine recorded(machine, path());
         recorded.home();
         const std::vector<double> at = parked_mm(machine);
-        recorded.begin(probe({at[0] + 30, at[1]}, at, true, true));
+        recorded.begin(probe({at[0] + 30, at[1] + (motors.size() > 1 ? 15 : 0)}, at, true, true));
         recorded.advance_ms(900);
-        recorded.vm().set_input(0, true);
+        for (std::size_t i = 0; i < motors.size(); ++i) { recorded.vm().set_input(i, true); }
         ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
         ASSERT_TRUE(recorded.vm().state()->probe && recorded.vm().state()->probe->touched());
     }
@@ -81,6 +88,23 @@ protected:
                                                   change(event);
                                                   return true;
                                               }),
+                  1);
+        return verify_log(log.write(test::test_directory() / "altered.lcm")).value();
+    }
+    static void expect_exact() {
+        const Findings findings = verify_log(path()).value();
+        EXPECT_FALSE(findings.difference) << findings.difference->text;
+        EXPECT_TRUE(findings.is_exact());
+    }
+    /// The pulses of this motor ceased some steps later.
+    static Findings ceased_later(const std::string& motor) {
+        test::AlteredLog log(path());
+        EXPECT_EQ(log.change<run_t>("_" + motor + "_RUN",
+                                    [](run_t& run) {
+                                        const bool has_ceased = run.cut != 0 && run.epoch != 0;
+                                        run.stop_count += has_ceased ? 2 : 0;
+                                        return has_ceased;
+                                    }),
                   1);
         return verify_log(log.write(test::test_directory() / "altered.lcm")).value();
     }
@@ -138,20 +162,16 @@ TEST_F(RecordedProbes, AreNotExactIfATouchIsRecordedAsMissed) {
 
 TEST_F(RecordedProbes, RestWhereTheirPulsesHadToCease) {
     record_ceasing();
-    const Findings whole = verify_log(path()).value();
-    EXPECT_FALSE(whole.difference) << whole.difference->text;
-    EXPECT_TRUE(whole.is_exact());
+    expect_exact();
+    expect_difference(ceased_later("X"), "its pulses had to cease at step");
+}
 
-    test::AlteredLog log(path());
-    EXPECT_EQ(log.change<run_t>("_RUN",
-                                [](run_t& run) {
-                                    const bool has_ceased = run.cut != 0 && run.epoch != 0;
-                                    run.stop_count += has_ceased ? 1 : 0;
-                                    return has_ceased;
-                                }),
-              1);
-    const Findings later = verify_log(log.write(test::test_directory() / "altered.lcm")).value();
-    expect_difference(later, "its pulses had to cease at step");
+TEST_F(RecordedProbes, RestWhereThePulsesOfEachMotorHadToCease) {
+    record_ceasing({"X", "Y"});
+    expect_exact();
+    for (const std::string motor : {"X", "Y"}) {
+        expect_difference(ceased_later(motor), "motor " + motor + " rests at step");
+    }
 }
 
 TEST_F(RecordedProbes, AreUnknownWithoutTheChangeOfTheInput) {

@@ -278,32 +278,49 @@ TEST_F(OwnClocksOnAWire, EndByTheVeto) {
     EXPECT_GT(behind_mm(), 0.03);
 }
 
-/// The owner ends while its probing move ceases, or soon after that.
+/// The owner ends while its probing move ceases, or soon after that. The frames that were run, and so the place of the
+/// touch, die with it.
 class TakeoverBehindATouch : public OnAWire, public testing::WithParamInterface<int> {
 protected:
     TakeoverBehindATouch()
         : OnAWire(VirtualOptions{.machine = MachineSetup{wired(small_machine(), {"X", "Y"})},
                                  .on_takeover = OnTakeover::Continue,
-                                 .coordinators = 2}) {}
+                                 .coordinators = 2}) {
+        vm.observe(cuts);
+    }
+
+    class Cuts : public VirtualObserver {
+    public:
+        void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& out) override {
+            for (const CoordinatorNotice& notice : out.notices) {
+                if (notice.kind == CoordinatorNotice::Kind::JobCutShort) { doubts.push_back(notice.doubt); }
+            }
+        }
+        std::vector<TakeoverDoubt> doubts;
+    } cuts;
 };
 
-TEST_P(TakeoverBehindATouch, EndsTheJobAndKeepsTheMachineReady) {
-    begin(probe_to({35, 25}));
-    wait(1);
+TEST_P(TakeoverBehindATouch, EndsTheJobAndTheMachineGoesOnFromThere) {
+    Program program = program_of({{6, 6}}, 20);
+    program.blocks.push_back({1, Probe{}});
+    program.blocks.push_back({1, ProgramMove{.target_mm = {35, 25}, .feed_mm_s = 5, .is_feed_fixed = true}});
+    begin(program);
+    wait(1.5);
     const std::size_t owner = vm.owner().value();
-    const Ticks from_touch{GetParam() * 250};
     touch();
-    vm.schedule(
-        {.kind = VirtualFault::Kind::Crash, .process = owner, .at = vm.now() + from_touch, .lasts = {1'000'000'000}});
+    const Tick ends = vm.now() + Ticks{GetParam() * 500};
+    vm.schedule({.kind = VirtualFault::Kind::Crash, .process = owner, .at = ends, .lasts = {1'000'000'000}});
     const auto taken = [&] { return vm.owner() && vm.owner() != owner && vm.state()->phase == MachinePhase::Idle; };
     ASSERT_TRUE(vm.advance_until(taken, Ticks{5'000'000})) << describe();
     EXPECT_EQ(fault(), FaultCode::None);
+    for (const TakeoverDoubt doubt : cuts.doubts) { EXPECT_EQ(doubt, TakeoverDoubt::NotRunning); }
+    EXPECT_EQ(cuts.doubts.empty(), vm.state()->outcome == JobOutcome::Done) << "it had ended before";
     touch(false);
     wait(0.1);
     go_on_from_here();
 }
 
-INSTANTIATE_TEST_SUITE_P(QuartersOfSlots, TakeoverBehindATouch, testing::Range(0, 60, 1));
+INSTANTIATE_TEST_SUITE_P(HalfSlots, TakeoverBehindATouch, testing::Range(0, 30));
 
 }  // namespace
 }  // namespace lockstep
