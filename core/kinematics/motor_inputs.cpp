@@ -12,7 +12,8 @@ std::uint32_t bit_of(const InputConfig& input) { return std::uint32_t{1} << inpu
 bool may_cause(const InputConfig& input, FaultCode fault) {
     switch (fault) {
         case FaultCode::EmergencyStopInput: return input.use == InputUse::EmergencyStop;
-        case FaultCode::TouchInMotion: return input.use == InputUse::Probe;
+        case FaultCode::TouchInMotion:
+        case FaultCode::TouchMissed: return input.use == InputUse::Probe;
         case FaultCode::LimitHit: return input.is_limit();
         default: return false;
     }

@@ -31,22 +31,30 @@ double greatest_gain(const LinearMap& map, MotorIndex motor, AxisSet axes) {
     return gain;
 }
 
+/// More motors than axes: an axis has several, so that their counts must agree. By clocks of their own they would cease
+/// within the errors of these clocks, and might rest a step apart.
+bool must_count_one_clock(MotorSet motors, const Kinematics& kinematics) {
+    AxisSet axes;
+    for (const MotorIndex m : motors) { axes |= kinematics.axes_of_motor(m); }
+    return motors.size() > axes.size();
+}
+
 /// The greatest speed of a move of these axes at whose touch the pulses of all its motors can cease, each by the input
-/// at its own device; nullopt: a motor has none, or takes other steps than its axes. By clocks of their own several
-/// motors would cease at different places.
+/// at its own device; nullopt: a motor has none, or takes other steps than its axes, or could rest a step off.
 std::optional<double> greatest_speed_mm_s(const Probe& probe, AxisSet axes, const MachineConfig& machine,
                                           const Kinematics& kinematics) {
     const Inputs inputs = inputs_of_probe(machine.inputs, probe.input);
     const MotorSet motors = kinematics.motors_of_axes(axes);
     if (motors.empty() || inputs.empty() || !are_one_switch(inputs)) { return std::nullopt; }
+    const bool need_one_clock = must_count_one_clock(motors, kinematics);
     const LinearMap map = motor_map_of(machine);
     double most = std::numeric_limits<double>::max();
     for (const MotorIndex m : motors) {
         const MotorConfig& motor = kinematics.motors()[m];
         const auto is_at_motor = [&](const InputConfig* input) { return input->motor == motor.name; };
-        const bool has_own_time = motors.size() > 1 && estimates_clock(machine, m);
+        const bool may_rest_off = need_one_clock && estimates_clock(machine, m);
         const bool takes_other_steps = kinematics.corrects_screw(m) || !motor.backlash.is_none();
-        if (std::ranges::none_of(inputs, is_at_motor) || has_own_time || takes_other_steps) { return std::nullopt; }
+        if (std::ranges::none_of(inputs, is_at_motor) || may_rest_off || takes_other_steps) { return std::nullopt; }
         most = std::min(most, motor.start_velocity_mm_s / greatest_gain(map, m, axes));
     }
     return most;

@@ -55,12 +55,15 @@ TEST(MachineFault, NamesTheInputOfAnEmergencyStop) {
     EXPECT_THAT(fault->remedy(), HasSubstr("release the emergency stop"));
 }
 
-TEST(MachineFault, NamesTheInputOfATouchInMotion) {
+TEST(MachineFault, NamesTheInputOfATouchInMotionOrOfOneThatWasMissed) {
     MachineSetup machine = with_inputs();
     machine.inputs.push_back({.name = "tip", .motor = "X", .channel = 6, .use = InputUse::Probe, .number = 0});
     const auto fault = fault_of({.fault = FaultCode::TouchInMotion, .fault_motor = MotorIndex{0}}, machine);
     EXPECT_THAT(fault->cause(), HasSubstr(": input tip of motor X"));
     EXPECT_THAT(fault->remedy(), HasSubstr("lockstep reset"));
+    const auto missed = fault_of({.fault = FaultCode::TouchMissed, .fault_motor = MotorIndex{0}}, machine);
+    EXPECT_THAT(missed->cause(), HasSubstr(": input tip of motor X"));
+    EXPECT_THAT(missed->remedy(), HasSubstr("check the wire"));
 }
 
 TEST(InputReport, NamesTheInputBecauseOfWhichAProbingMoveCouldNotBegin) {

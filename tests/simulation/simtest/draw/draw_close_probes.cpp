@@ -78,11 +78,15 @@ bool may_be_wired(AxisSet axes, const Kinematics& kinematics) {
     return motors.size() >= 2 && motors.size() <= kMaxTouchInputs;
 }
 
-bool count_one_clock(MotorSet motors, const MachineConfig& machine) {
+/// Several motors of one axis that have clocks of their own end by the veto.
+bool end_by_veto(MotorSet motors, const MachineConfig& machine, const Kinematics& kinematics) {
+    AxisSet axes;
+    bool have_own_clocks = false;
     for (const MotorIndex m : motors) {
-        if (estimates_clock(machine, m)) { return false; }
+        axes |= kinematics.axes_of_motor(m);
+        have_own_clocks |= estimates_clock(machine, m);
     }
-    return true;
+    return have_own_clocks && motors.size() > axes.size();
 }
 
 /// Axes with several motors: each alone, and two together.
@@ -108,8 +112,8 @@ double feed_to_start(AxisSet axes, const Kinematics& kinematics) {
     return most_mm_s;
 }
 
-/// Wires the probe's switch to the devices of all motors that probe. If these count several clocks, its moves end by
-/// the veto, and it bears what it bore. Returns false if no motors are wired.
+/// Wires the probe's switch to the devices of all motors that probe. If its moves end by the veto, it bears what it
+/// bore. Returns false if no motors are wired.
 bool wire_probe(std::uint64_t seed, Scenario& scenario) {
     Draw draw(seed ^ 0x31e0ddb10c31e0ULL);
     MachineConfig& machine = scenario.machine;
@@ -125,7 +129,9 @@ bool wire_probe(std::uint64_t seed, Scenario& scenario) {
     double step_mm = 0;
     for (const AxisIndex i : axes) { step_mm = std::hypot(step_mm, kinematics.step_mm(i)); }
     const MotorSet motors = kinematics.motors_of_axes(axes);
-    if (count_one_clock(motors, machine)) { probe.max_overshoot_mm = little_more_mm(machine, probe, feed, step_mm); }
+    if (!end_by_veto(motors, machine, kinematics)) {
+        probe.max_overshoot_mm = little_more_mm(machine, probe, feed, step_mm);
+    }
     probe.wire = "tip";
     probe.at_board = false;
     for (const MotorIndex m : motors) {

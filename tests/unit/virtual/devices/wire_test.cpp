@@ -222,7 +222,7 @@ bool ceases(const MachineConfig& machine, AxisSet axes, double feed_mm_s) {
 
 constexpr AxisSet kBoth{AxisIndex{kX}, AxisIndex{kY}};
 
-TEST(MovesOnAWire, CeaseOnlyIfAllMotorsSeeTheSwitchByOneClock) {
+TEST(MovesOnAWire, CeaseOnlyIfAllMotorsSeeTheSwitch) {
     const MachineConfig good = wired(small_machine(), {"X", "Y"});
     EXPECT_TRUE(ceases(good, kBoth, 5));
     EXPECT_FALSE(ceases(wired(small_machine(), {"X"}), kBoth, 5));
@@ -231,13 +231,24 @@ TEST(MovesOnAWire, CeaseOnlyIfAllMotorsSeeTheSwitchByOneClock) {
     EXPECT_FALSE(ceases(two_switches, kBoth, 5));
     two_switches.inputs[0].wire.clear();
     EXPECT_FALSE(ceases(two_switches, kBoth, 5)) << "inputs with one number may be several switches";
-    MachineConfig own_clock = good;
-    own_clock.axes[kY].device = {.kind = DeviceName::Kind::Linked, .place = "pico"};
-    EXPECT_FALSE(ceases(own_clock, kBoth, 5));
-    EXPECT_TRUE(ceases(own_clock, {AxisIndex{kY}}, 5)) << "no other motor moves";
     MachineConfig with_play = good;
     with_play.axes[kY].backlash = BacklashConfig{.mm = 0.1, .speed_mm_s = {}};
     EXPECT_FALSE(ceases(with_play, kBoth, 5));
+}
+
+TEST(MovesOnAWire, CeaseByClocksOfTheirOwnUnlessAnAxisHasSeveralMotors) {
+    MachineConfig two_axes = wired(small_machine(), {"X", "Y"});
+    MachineConfig belts = wired(two_belts(), {"A", "B"});
+    MachineConfig one_axis = wired(square_gantry(), {"X", "Y1", "Y2"});
+    for (MachineConfig* const machine : {&two_axes, &belts, &one_axis}) {
+        EXPECT_TRUE(ceases(*machine, {AxisIndex{kY}}, 5));
+        machine->timing.time_source = TimeSource::Network;
+    }
+    EXPECT_TRUE(ceases(two_axes, kBoth, 5));
+    EXPECT_TRUE(ceases(belts, {AxisIndex{kY}}, 5));
+    EXPECT_FALSE(ceases(one_axis, {AxisIndex{kY}}, 5));
+    EXPECT_FALSE(ceases(one_axis, kBoth, 5));
+    EXPECT_TRUE(ceases(one_axis, {AxisIndex{kX}}, 5)) << "its motor moves alone";
 }
 
 TEST(MovesOnAWire, CeaseUpToTheStartVelocityOfEachMotorInAnyDirection) {
@@ -253,28 +264,56 @@ TEST(MovesOnAWire, CeaseUpToTheStartVelocityOfEachMotorInAnyDirection) {
     EXPECT_TRUE(ceases(belts, kBoth, start / 1.5));
 }
 
-/// By clocks of their own the devices would cease some ticks apart.
-class OwnClocksOnAWire : public OnAWire {
+/// Over a network each process has its own clock.
+VirtualOptions by_clocks_apart(const MachineConfig& machine) {
+    VirtualOptions options{.machine = MachineSetup{machine}};
+    options.machine.timing.time_source = TimeSource::Network;
+    options.machine.timing.clock_error_limit_us = 250;
+    options.network = {.delay_min{20}, .delay_max{300}};
+    options.start = Tick{10'000'000};
+    options.clocks = test::clocks_apart();
+    return options;
+}
+
+class AxesByOwnClocks : public OnAWire {
 protected:
-    OwnClocksOnAWire() : OnAWire(clocks_apart()) {}
-    static VirtualOptions clocks_apart() {
-        VirtualOptions options{.machine = MachineSetup{wired(small_machine(), {"X", "Y"}, 20)}};
-        options.machine.timing.time_source = TimeSource::Network;
-        options.machine.timing.clock_error_limit_us = 250;
-        options.network = {.delay_min{20}, .delay_max{300}};
-        options.start = Tick{10'000'000};
-        options.clocks = test::clocks_apart();
-        return options;
-    }
+    AxesByOwnClocks() : OnAWire(by_clocks_apart(wired(small_machine(), {"X", "Y"}))) {}
 };
 
-TEST_F(OwnClocksOnAWire, EndByTheVeto) {
+TEST_F(AxesByOwnClocks, CeaseWithinTheErrorsOfTheClocks) {
     begin(probe_to({35, 25}));
+    wait(1.231);
+    touch();
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
+    ASSERT_TRUE(vm.state()->probe && result().touched());
+    EXPECT_LE(behind_mm(), 0.02);
+    touch(false);
+    go_on_from_here();
+}
+
+TEST_F(AxesByOwnClocks, AreInFaultIfADeviceDoesNotSeeTheTouch) {
+    begin(probe_to({35, 25}));
+    wait(1);
+    vm.set_input(0, true);
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 5)) << describe();
+    EXPECT_EQ(fault(), FaultCode::TouchMissed);
+    EXPECT_EQ(vm.state()->fault_motor, MotorIndex{1});
+}
+
+class GantryByOwnClocks : public OnAWire {
+protected:
+    GantryByOwnClocks() : OnAWire(by_clocks_apart(wired(square_gantry(), {"Y1", "Y2"}, 20))) {}
+};
+
+TEST_F(GantryByOwnClocks, EndsByTheVeto) {
+    begin(probe_to({5, 35}));
     wait(1);
     touch();
     ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
     EXPECT_EQ(vm.state()->outcome, JobOutcome::Done);
     ASSERT_TRUE(vm.state()->probe && result().touched());
+    EXPECT_EQ(counts()[1], counts()[2]);
     EXPECT_GT(behind_mm(), 0.03);
 }
 
