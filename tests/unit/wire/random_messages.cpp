@@ -19,7 +19,7 @@ Frame RandomMessages::frame() {
     for (std::uint32_t n = index(kMaxTouchInputs + 1); n > 0; --n) {
         frame.touch.any_of.append({MotorIndex{index(kMaxAxes)}, static_cast<std::uint8_t>(index(kMostInputs))});
     }
-    frame.touch.ceases = frame.touch.any_of.size() == 1 && coin();
+    frame.touch.ceases = !frame.touch.any_of.empty() && coin();
     return frame;
 }
 
