@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
-"""Assembles program/*.asm to motors_program.vh: what motors_core.v runs.
+"""Assembles program/*.asm: motors_program.vh is what motors_core.v runs, motors_constants.vh the constant words of the
+map, motors_sizes.vh the sizes that the other modules share with the program.
 
-Usage: assemble.py            writes motors_program.vh again
-       assemble.py --check    exits 1 if it differs
+Usage: assemble.py                      writes them again
+       assemble.py --check              exits 1 if one differs
+       assemble.py BOARD.asm DIRECTORY  writes those of a board into the directory: what the board's file says of a NAME
+                                        counts, and not what program/0_registers.asm says
 
 A line is one of these. Numbers are Python's, with the names that were defined before.
 
@@ -46,6 +49,7 @@ class Mistake(Exception):
 class Assembler:
     def __init__(self):
         self.names, self.registers, self.labels = {}, {}, {}
+        self.fixed = set()                 # names that the board's file has
         self.free = 0
         self.code, self.jumps = [], []     # words; (index, label, line)
         self.clock = 0
@@ -149,7 +153,8 @@ class Assembler:
         if match := re.fullmatch(r"(\w+):", text):
             self.labels[match[1]] = len(self.code)
         elif match := re.fullmatch(r"(\w+) *= *(.*)", text):
-            self.names[match[1]] = self.value(match[2])
+            if match[1] not in self.fixed:
+                self.names[match[1]] = self.value(match[2])
         else:
             name, _, rest = text.partition(" ")
             name, _, limbs = name.partition(".")
@@ -174,14 +179,16 @@ class Assembler:
             sys.exit(f"the program has {len(self.code)} words; there is room for 1024")
 
 
-def assembled():
+def assembled(board=None):
     assembler = Assembler()
-    for path in sorted((HERE / "program").glob("*.asm")):
+    for path in ([board] if board else []) + sorted((HERE / "program").glob("*.asm")):
         for number, text in enumerate(path.read_text().splitlines(), 1):
             try:
                 assembler.line(text, f"{path.name}:{number}")
             except (Mistake, KeyError, IndexError, TypeError, NameError, SyntaxError) as mistake:
                 sys.exit(f"{path.name}:{number}: {text.strip()}: {mistake!r}")
+        if path == board:
+            assembler.fixed = set(assembler.names)
     assembler.link()
     return assembler
 
@@ -191,9 +198,10 @@ def program_of(assembler):
     ones = [assembler.registers[name][0] + limb for name in ("NEVER", "SILENT_AT", "NEXT_DUE") for limb in range(4)]
     values = {**dict.fromkeys(ones, 0xffff), assembler.registers["IS_ZERO"][0]: 0xff,
               assembler.registers["PHASE"][0] + 3: 0x8000}
-    lines = [HEAD, "initial begin\n    for (i = 0; i < 1 << BITS; i = i + 1) begin\n"]
+    # Synthesis leaves block RAM 0, and Yosys takes long to say so itself.
+    lines = [HEAD, "initial begin\n`ifndef SYNTHESIS\n    for (i = 0; i < 1 << BITS; i = i + 1) begin\n"]
     lines += [f"        registers_{port}[i] = 0;\n" for port in "ab"]
-    lines += ["    end\n    for (i = 0; i < 1 << BITS; i = i + 256) begin\n"]
+    lines += ["    end\n`endif\n    for (i = 0; i < 1 << BITS; i = i + 256) begin\n"]
     lines += [f"        registers_{port}[i + {address}] = 16'h{value:04x};\n"
               for port in "ab" for address, value in sorted(values.items())]
     lines += ["    end\n"]
@@ -214,7 +222,7 @@ def constants_of(assembler):
              "INPUT_CHANNELS": names["INPUTS"], "DIGITAL_CHANNELS": names["DIGITAL"],
              "ANALOG_CHANNELS": names["ANALOG"], "OUTPUT_ENTRIES": names["OUTPUT_ENTRIES"],
              "EVENT_ENTRIES": names["EVENT_ENTRIES"], "FEATURES": 0b1010, "LONGEST_PWM_PERIOD": 0,
-             "LONGEST_PIECE_TICKS": 0xffffffff, "LEAD_TICKS": names["LEAD_TICKS"], "PIN_TICKS": 2}
+             "LONGEST_PIECE_TICKS": 0xffffffff, "LEAD_TICKS": names["LEAD_TICKS"], "PIN_TICKS": 3}
     lines = [HEAD, "initial begin\n    for (i = 0; i < 128; i = i + 1) constants[i] = 0;\n"]
     for name, value in shown.items():
         lines += [f"    constants[{words[name] // 2 + limb}] = 16'h{value >> 16 * limb & 0xffff:04x};\n"
@@ -222,15 +230,32 @@ def constants_of(assembler):
     return "".join(lines) + "end\n"
 
 
+def sizes_of(assembler):
+    """The parameters of a module that depend on the program."""
+    names = ("TICK_CLOCKS", "INPUTS", "DIGITAL", "ANALOG")
+    return HEAD + ",\n".join(f"parameter {name} = {assembler.names[name]}" for name in names) + "\n"
+
+
+def write(directory, assembler, is_check):
+    """Returns the names of the files that differed."""
+    texts = {"motors_program.vh": program_of(assembler), "motors_constants.vh": constants_of(assembler),
+             "motors_sizes.vh": sizes_of(assembler)}
+    differing = [name for name, text in texts.items()
+                 if not (directory / name).exists() or (directory / name).read_text() != text]
+    if not is_check:
+        for name in differing:
+            (directory / name).write_text(texts[name])
+    return differing
+
+
 def main():
-    assembler, is_check = assembled(), "--check" in sys.argv
-    differing = []
-    for name, text in (("motors_program.vh", program_of(assembler)), ("motors_constants.vh", constants_of(assembler))):
-        out = HERE / name
-        if not out.exists() or out.read_text() != text:
-            differing.append(name)
-            if not is_check:
-                out.write_text(text)
+    is_check = "--check" in sys.argv
+    if len(sys.argv) == 3:
+        board, directory = (pathlib.Path(argument) for argument in sys.argv[1:])
+        directory.mkdir(parents=True, exist_ok=True)
+        write(directory, assembled(board), False)
+        return 0
+    differing = write(HERE, assembled(), is_check)
     if is_check and differing:
         print(f"{differing} differ from program/*.asm\nremedy: sim_fpga/rtl/motors/assemble.py")
         return 1

@@ -13,7 +13,7 @@ initial begin
     constants[9] = 16'hdcb5;
     constants[10] = 16'ha2fc;
     constants[11] = 16'hda31;
-    constants[12] = 16'h7d00;
+    constants[12] = 16'h9c40;
     constants[13] = 16'h0000;
     constants[14] = 16'h0000;
     constants[15] = 16'h0000;
@@ -73,7 +73,7 @@ initial begin
     constants[85] = 16'h0000;
     constants[86] = 16'h0000;
     constants[87] = 16'h0000;
-    constants[88] = 16'h0002;
+    constants[88] = 16'h0003;
     constants[89] = 16'h0000;
     constants[90] = 16'h0000;
     constants[91] = 16'h0000;

@@ -14,6 +14,7 @@ module motors_core #(
     input clk,
     input tick,                 // for one clock: another tick
     output busy,                // it is being executed, or waits
+    output take,                // for one clock: the execution of a tick begins
     output reg [MOTOR_BITS-1:0] motor,
     // The memory: the word comes two clocks after its address.
     output reg uses_memory,
@@ -160,7 +161,8 @@ module motors_core #(
 
     // Jumps.
     reg [3:0] ticks;            // that have come and have not begun
-    reg may_tick, is_late, is_last_motor, touched; // a clock later
+    reg may_tick, is_last_motor, touched; // a clock later
+    reg overruns, is_late;      // a tick came before the execution of the one before it had begun: since then, now
     reg asks_show;
     reg is_shown;
     reg condition;
@@ -196,7 +198,7 @@ module motors_core #(
     // Functions.
     wire does = runs && x_op == FUNCTION;
     wire [3:0] function_of = x_number[3:0];
-    wire take = does && function_of == 0;
+    assign take = does && function_of == 0;
     wire rest = does && function_of == 14;
     wire shown = does && function_of == 3;
     assign step_forward = does && function_of == 7;
@@ -209,14 +211,16 @@ module motors_core #(
     assign busy = is_tick || !is_between;
     assign may_write = is_between && !is_tick;
     assign shows = asks_show || is_shown;
-    initial {takes, target, links, x_next, may_tick, is_late, is_last_motor, touched, ticks, asks_show, is_shown} = 0;
+    initial {takes, target, links, x_next, may_tick, is_last_motor, touched, ticks, asks_show, is_shown} = 0;
+    initial {overruns, is_late} = 0;
     initial {is_between, motor, pointer, carry, w_carry, w_adds, w_inverts, sign_a, sign_b, zero} = 0;
     initial {x_adds, x_inverts, x_is_number, x_is_logical, x_writes} = 0;
     initial {w_writes, w_loads, v_loads, w_at, v_at, w_first, w_judges, sum, bits} = 0;
     always @(posedge clk) begin
         ticks <= ticks + {3'd0, tick} - {3'd0, take};
         may_tick <= is_tick && !take && !host_writes;
-        is_late <= is_tick;
+        overruns <= (tick && is_tick) || (overruns && !take);
+        if (take) is_late <= overruns;
         is_last_motor <= {{(32 - MOTOR_BITS){1'b0}}, motor} == MOTORS - 1;
         touched <= is_touched[motor];
         if (take) is_between <= 0;

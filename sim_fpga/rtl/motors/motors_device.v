@@ -6,11 +6,13 @@
 module motors_device #(
     parameter MOTORS = 8,
     parameter MOTOR_BITS = 3,
+    parameter HAS_MEMORY = 1,   // 0: the memory is outside
     parameter [15:0] CHECKS = 1 // motors_core.v
 ) (
     input clk,
     input tick,                 // for one clock: another tick
     output busy,                // it is being executed
+    output take,                // for one clock: its execution begins
     // The host, as in motors_host.v.
     input write,
     input read,
@@ -22,6 +24,13 @@ module motors_device #(
     output [15:0] read_data,
     input show,                 // for one clock: shows the words of host_motor
     output shows,               // until it is done
+    // The memory, if it is outside. It writes or reads in each clock, as motors_memory.v does.
+    output memory_writes,
+    output [MOTOR_BITS+12:0] memory_address,
+    output [15:0] memory_data,
+    // verilator lint_off UNUSED
+    input [15:0] memory_word,
+    // verilator lint_on UNUSED
     // The pins.
     input [15*MOTORS-1:0] pins,
     output [MOTOR_BITS-1:0] motor, // of what follows, each for one clock
@@ -40,7 +49,7 @@ module motors_device #(
     wire [MOTORS-1:0] is_touched;
     // verilator lint_off PINCONNECTEMPTY
     motors_core #(.MOTORS(MOTORS), .MOTOR_BITS(MOTOR_BITS), .CHECKS(CHECKS)) core (.clk(clk), .tick(tick),
-        .busy(busy), .motor(motor), .uses_memory(core_uses), .stores(core_stores), .address(core_address),
+        .busy(busy), .take(take), .motor(motor), .uses_memory(core_uses), .stores(core_stores), .address(core_address),
         .data(data), .word(word), .is_between(), .may_write(may_write), .host_writes(host_writes),
         .is_touched(is_touched), .untouch(untouch), .show(show), .show_motor(host_motor), .shows(shows),
         .pins(pins[15*motor +: 15]), .step_forward(step_forward), .step_backward(step_backward),
@@ -52,8 +61,13 @@ module motors_device #(
         .was_read(was_read), .read_data(read_data), .core_uses_memory(core_uses),
         .stores(host_stores), .address(address), .data(host_data), .word(word), .may_write(may_write),
         .writes(host_writes), .motor(motor), .untouch(untouch), .is_touched(is_touched));
-    motors_memory #(.MOTORS(MOTORS), .MOTOR_BITS(MOTOR_BITS)) memory (.clk(clk),
-        .write(core_stores || (host_stores && !core_uses)),
-        .address(core_uses ? {motor, core_address} : {host_motor, address}),
-        .data(core_uses ? data : host_data), .word(word));
+    assign memory_writes = core_stores || (host_stores && !core_uses);
+    assign memory_address = core_uses ? {motor, core_address} : {host_motor, address};
+    assign memory_data = core_uses ? data : host_data;
+    generate if (HAS_MEMORY != 0) begin : own_memory
+        motors_memory #(.MOTORS(MOTORS), .MOTOR_BITS(MOTOR_BITS)) memory (.clk(clk), .write(memory_writes),
+            .address(memory_address), .data(memory_data), .word(word));
+    end else begin : memory_outside
+        assign word = memory_word;
+    end endgenerate
 endmodule

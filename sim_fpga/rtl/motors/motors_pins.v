@@ -1,5 +1,6 @@
-// The pins of the motors: step, direction and enable of each, and its digital outputs. What the core finds for a tick
-// is at the pins from the next tick on, so the time from a tick to its edges does not depend on the core's work.
+// The pins of the motors: step, direction and enable of each, and its digital outputs. The core may execute a tick
+// until the end of the one behind it. So what it finds for a tick is at the pins from the second tick on behind it, and
+// the time from a tick to its edges does not depend on the core's work.
 //
 // A pulse begins DIRECTION_SETUP after the tick and lasts STEP_WIDTH; the direction changes with the tick. Times are in
 // units of 8 clocks: in each clock one of the motors is looked at. Two times must fit into a tick (LONGEST_TIME). Then
@@ -11,6 +12,7 @@ module motors_pins #(
 ) (
     input clk,
     input tick,                 // for one clock: a tick begins
+    input take,                 // for one clock: the core begins to execute a tick, and has executed the one before it
     // Of this motor, each for one clock.
     input [MOTOR_BITS-1:0] motor,
     input step_forward,
@@ -28,9 +30,10 @@ module motors_pins #(
     reg [15:0] found;           // of the motor `seen`
     reg [2:0] at, seen;
     reg [7:0] unit;             // since the tick
+    reg began;                  // the tick, a clock ago: `seen` is still of the one before
     integer i;
     initial begin
-        {at, seen, unit, found} = 0;
+        {at, seen, unit, began, found} = 0;
         for (i = 0; i < 256; i = i + 1) times[i] = 16'h0c00;
     end
     always @(posedge clk) begin
@@ -38,20 +41,24 @@ module motors_pins #(
         found <= times[{5'd0, at}];
         seen <= at;
         at <= tick ? 3'd0 : at + 1'b1;
+        began <= tick;
         if (tick) unit <= 0;
-        else if (seen == 7 && unit != 8'hff) unit <= unit + 1'b1;
+        else if (seen == 7 && !began && unit != 8'hff) unit <= unit + 1'b1;
     end
     wire begins = unit == found[7:0], ends = unit == found[15:8];
 
     genvar n;
     generate for (n = 0; n < MOTORS; n = n + 1) begin : motors
-        reg will_step, will_go_forward, steps, is_on, goes_forward, is_enabled;
+        reg has_stepped, went_forward, will_step, will_go_forward, steps, is_on, goes_forward, is_enabled;
         reg [2:0] inverted;
-        reg [DIGITAL-1:0] levels;
+        reg [DIGITAL-1:0] levels, next_levels;
         wire is_this = motor == n;
-        initial {will_step, will_go_forward, steps, is_on, goes_forward, is_enabled, inverted, levels} = 0;
+        initial {has_stepped, went_forward, will_step, will_go_forward, steps, is_on, goes_forward, is_enabled} = 0;
+        initial {inverted, levels, next_levels} = 0;
         always @(posedge clk) begin
-            if (is_this && (step_forward || step_backward)) {will_step, will_go_forward} <= {1'b1, step_forward};
+            if (is_this && (step_forward || step_backward)) {has_stepped, went_forward} <= {1'b1, step_forward};
+            else if (take) has_stepped <= 0;
+            if (take) {will_step, will_go_forward, next_levels} <= {has_stepped, went_forward, levels};
             else if (tick) will_step <= 0;
             if (tick) begin
                 steps <= will_step;
@@ -63,7 +70,7 @@ module motors_pins #(
             step_pins[n] <= is_on ^ inverted[0];
             direction_pins[n] <= goes_forward ^ inverted[1];
             enable_pins[n] <= is_enabled ^ inverted[2];
-            if (tick) digital_pins[DIGITAL*n +: DIGITAL] <= levels;
+            if (tick) digital_pins[DIGITAL*n +: DIGITAL] <= next_levels;
         end
     end endgenerate
     initial {step_pins, direction_pins, enable_pins, digital_pins} = 0;

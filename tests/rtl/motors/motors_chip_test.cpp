@@ -7,14 +7,16 @@
 #include <vector>
 
 #include "Vmotors_chip.h"
+#include "Vmotors_chip_6.h"
 #include "tests/rtl/axis/one_frame.hpp"
 #include "tests/rtl/clocked.hpp"
 #include "tests/rtl/motors/host_port.hpp"
+#include "tests/rtl/motors/joined_frames.hpp"
 
 namespace lockstep::rtl {
 namespace {
 
-constexpr std::int64_t kTickClocks = 1536;
+constexpr std::int64_t kTickClocks = 1920;
 constexpr std::int64_t kUnitClocks = 8;
 constexpr std::uint64_t kQuarter = std::uint64_t{1} << 62;  // of a step in each tick
 
@@ -108,6 +110,40 @@ TEST_F(MotorsChip, ShowsLevelsAndAnalogValuesAtThePinsOfTheirMotor) {
         for (unsigned n = 0; n < 4; ++n) { on[n] += chip_.pins.analog_pins >> n & 1; }
     }
     EXPECT_EQ(on, (std::array{0, 0, kLooks * 3 / 4, kLooks}));
+}
+
+/// Then a tick takes longest. The host can still write while all motors wait for their first frame.
+TEST(SixMotorsOfAChip, AllBeginTheirFramesInTheSameTickAndLoseNone) {
+    using namespace registers;
+    constexpr std::size_t kMotors = 6;
+    constexpr std::int64_t kStart = 400;
+    constexpr std::uint64_t kFrames = 6;
+    Clocked<Vmotors_chip_6> chip;
+    chip.pins.input_pins = 0;
+    std::array<std::uint64_t, kMotors> rises{};
+    unsigned was_on = 0;
+    const auto clock = [&] {
+        chip.clock();
+        for (std::size_t motor = 0; motor < kMotors; ++motor) {
+            rises[motor] += (chip.pins.step_pins & ~was_on) >> motor & 1;
+        }
+        was_on = chip.pins.step_pins;
+    };
+    HostPort<Vmotors_chip_6> host(chip.pins, clock);
+    std::uint64_t steps = 0;
+    for (std::size_t motor = 0; motor < kMotors; ++motor) {
+        steps = run_joined_frames([&](std::size_t offset, std::uint64_t value) { host.write(motor, offset, value); },
+                                  kStart, kFrames);
+    }
+    for (std::int64_t left = kTickClocks * (kStart + static_cast<std::int64_t>(kFrames) * 20 + 4); left > 0; --left) {
+        clock();
+    }
+    for (std::size_t motor = 0; motor < kMotors; ++motor) {
+        host.show(motor);
+        EXPECT_EQ(host.read(motor, kStatus), kStatusFinished | kStatusEnabled);
+        EXPECT_EQ(host.read(motor, kCount), steps);
+        EXPECT_EQ(rises[motor], steps);
+    }
 }
 
 }  // namespace

@@ -144,26 +144,5 @@ TEST_F(TwoMotors, KeepTheWordsThatTheyShowUntilTheHostAsksAgain) {
     EXPECT_EQ(hardware_.read(0, kPowerUp), 99);
 }
 
-/// The tick of motors_chip.v has 1536 clocks.
-TEST(SixMotors, AllMakeAStepBeforeTheTickOfTheChipEnds) {
-    VerilogMotors<Vmotors_device_6, 6> hardware;
-    for (std::size_t motor = 0; motor < 6; ++motor) {
-        run_one_frame([&](std::size_t offset, std::uint64_t value) { hardware.write(motor, offset, value); }, 2, 40,
-                      ~std::uint64_t{0} >> 1, 0);
-    }
-    int together = 0;
-    for (int tick = 0; tick < 40; ++tick) {
-        int steps = 0;
-        const int clocks = hardware.tick({}, [&](std::size_t, int) {
-            ++steps;
-            return decltype(hardware)::Levels{};
-        });
-        if (tick < 4) { continue; }  // the hosts' words are read, and the frames begin
-        together += steps == 6 ? 1 : 0;
-        EXPECT_LE(clocks, 1536);
-    }
-    EXPECT_EQ(together, 18);
-}
-
 }  // namespace
 }  // namespace lockstep::rtl

@@ -28,6 +28,7 @@ TESTS = {
     "axis_device": "AxisHardware.*",
     "motors_device_2": "TwoMotors.*",
     "motors_chip": "MotorsChip.*",
+    "motors_chip_6": "SixMotorsOfAChip.*",
     "axis_pins": "AxisPins.*",
     "axis_pwm": "AxisPwm.*",
     "axis_chip": "AxisChip.*",
@@ -70,6 +71,7 @@ MUTANTS = [
     ("motors_device_2", "motors/program/3_frames.asm", "    cmp ARMED, NUMBER\n    jnc return\n", ""),
     ("motors_device_2", "motors/motors_host.v", "begun || is_ring || may_write", "1'b1"),
     ("motors_chip", "motors/motors_pins.v", "unit == found[7:0]", "unit == 0"),
+    ("motors_spi_sram", "motors/motors_spi.v", "if (is_right) write", "if (1'b1) write"),
 ]
 
 LONG_MUTANTS = [
@@ -87,6 +89,11 @@ LONG_MUTANTS = [
     ("motors_device_2", "motors/program/5_outputs.asm", "    cmp B, LAST_IN_TAIL\n    jnc change_is_bad\n", ""),
     ("motors_device_2", "motors/program/6_setup.asm", "    tst A[2], #0xff & ~((1 << ANALOG) - 1)\n    jnz refuse\n", ""),
     ("motors_chip", "motors/motors_pins.v", "(begins && steps)", "begins"),
+    ("motors_chip_6", "motors/motors_pins.v", "seen == 7 && !began", "seen == 7"),
+    ("motors_chip_6", "motors/motors_core.v", "is_late <= overruns", "is_late <= is_tick"),
+    ("motors_spi_sram", "motors/motors_spi.v", "accepts = is_right", "accepts = 1'b1"),
+    ("motors_spi_sram", "motors/motors_spi.v", "count == 63 && write)", "1'b0)"),
+    ("motors_spi_sram", "motors/motors_sram.v", "we_n <= !pulses", "we_n <= !oe_n"),
     ("motors_chip", "motors/motors_analog.v", "{1'b0, its_rest}", "16'd0"),
     ("axis_device", "axis/axis_sequencer.v", "is_of_request <= run_request == run", "is_of_request <= 1"),
     ("axis_device", "axis/axis_adder.v", "is_now <= is_equal;", "is_now <= 1;"),

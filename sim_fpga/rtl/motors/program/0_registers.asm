@@ -9,8 +9,10 @@ CAPTURE_ENTRIES = 256
 OUTPUT_ENTRIES = 32
 EVENT_ENTRIES = 32
 LONGEST_TIME = 94               ; of a pulse time
-TICK_NS = 32000
-TIME_UNIT_PS = 166667           ; 8 clocks of 48 MHz
+CLOCK_HZ = 48000000
+TICK_CLOCKS = 1920
+TICK_NS = TICK_CLOCKS * 10**9 // CLOCK_HZ
+TIME_UNIT_PS = (8 * 10**12 + CLOCK_HZ // 2) // CLOCK_HZ
 LEAD_TICKS = 290                ; one piece, or one change of an output, is checked in a tick
 OWN_WIDTH = 12                  ; of a step, if the setup names none
 
@@ -168,7 +170,7 @@ reg OUTPUT_PINS_INVERTED 1 239
 NEW_SETUP = 0x0001
 STOP_ASKED = 0x0002
 LOST = 0x0004
-AGAIN = 0x0008                  ; whether the motor may be enabled is judged once more
+AGAIN = 0x0008                  ; orders are looked at once more in the next tick
 SILENT = 0x0010
 DISABLES = 0x0020               ; silence does
 IS_SET_UP = 0x0040

@@ -40,8 +40,8 @@ motor:
     tst FLAGS, #NEW_SETUP | STOP_ASKED | LOST | AGAIN
     jnz again
 look_before:
-    call tend_inputs
-    jmp decide_before
+    call tend_inputs                ; no order is new: what begins was decided after the tick before
+    jmp travel
 touched:
     untouch
     call read_orders
@@ -112,8 +112,10 @@ next_motor:
     next
     jmp motor
 
-; Checks the next frame and its changes little by little, so that they are known when they begin.
+; Checks the next frame and its changes little by little, so that they are known when they begin. If all motors begin a
+; frame in a tick, the next one waits, and the checks go on when none does.
 look_ahead:
+    jtick next_motor
     tst SCAN, #KNOWN
     jnz look_ahead_at_changes
     mov CHECKS, checks

@@ -117,6 +117,7 @@ shift_run:
 
 ; Ends a run. `REASON`: a bit of STATUS, or 0.
 end_run:
+    or FLAGS, #AGAIN
     mov.3 LEFT, #0
     mov VELOCITY, #0
     tst SEEN, #INTO_LIMIT
