@@ -3,7 +3,8 @@
 
 Usage: measure.py README            writes the table again
        measure.py README --check    exits 1 if a row differs; places only designs of one axis, which takes a minute
-       measure.py README --device   writes the tables of the devices again, which takes minutes
+       measure.py README --device   writes the table of the device of one motor again, which takes minutes
+       measure.py README --motors   writes the table of the motors' chip again, from five placements
 """
 import concurrent.futures
 import json
@@ -232,8 +233,10 @@ def differences(rows, table):
 
 def main():
     readme, check = pathlib.Path(sys.argv[1]), "--check" in sys.argv
-    if "--device" in sys.argv:
+    if "--motors" in sys.argv:
         write_table(readme, MOTORS_BEGIN, text([motors_row(design) for design in motors()], MOTORS_HEAD))
+        return 0
+    if "--device" in sys.argv:
         write_table(readme, DEVICE_BEGIN, text([device_row(design) for design in devices()], DEVICE_HEAD))
         return 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

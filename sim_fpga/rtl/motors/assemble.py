@@ -88,7 +88,8 @@ class Assembler:
         """reads: the registers' limbs, and in which clock of the instruction. ready: the clock when it can begin."""
         begin = max([ready] + [self.ready.get(address, 0) - limb for address, limb in reads])
         wait = max(0, begin - self.clock)
-        self.code.append(wait << 32 | word)
+        is_one_clock = wait + limbs == 1
+        self.code.append(is_one_clock << 34 | wait << 32 | word)
         self.clock += wait + limbs
 
     def limbs_of(self, name, limbs, address):
@@ -205,7 +206,7 @@ def program_of(assembler):
     lines += [f"        registers_{port}[i + {address}] = 16'h{value:04x};\n"
               for port in "ab" for address, value in sorted(values.items())]
     lines += ["    end\n"]
-    words = [f"words[{index}] = 34'h{word:09x};" for index, word in enumerate(assembler.code)]
+    words = [f"words[{index}] = 35'h{word:09x};" for index, word in enumerate(assembler.code)]
     lines += [f"    {' '.join(words[at:at + WORDS_IN_LINE])}\n" for at in range(0, len(words), WORDS_IN_LINE)]
     return "".join(lines) + "end\n"
 

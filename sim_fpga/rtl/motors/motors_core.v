@@ -48,28 +48,39 @@ module motors_core #(
     localparam BITS = MOTOR_BITS + 8;
 
     // The instruction.
-    (* no_rw_check *) reg [33:0] words[0:1023];
-    reg [33:0] ins;
+    (* no_rw_check *) reg [34:0] words[0:1023];
+    reg [34:0] ins;
     reg [9:0] pc, target;
     reg is_ins;                 // there is one
     reg takes;                  // a jump was executed: what is behind it is dropped
     reg [1:0] waited;
     reg [6:0] limb;
+    reg is_limb_0;
     wire [3:0] op = ins[31:28];
     wire [1:0] kind = ins[25:24];
     wire is_block = op == ST && kind == BLOCK;
     wire waits = waited != ins[33:32];
-    wire is_last = is_block ? limb == LAST_OF_BLOCK : limb[1:0] == ins[27:26];
-    wire advances = !is_ins || takes || (!waits && is_last);
+    // Whether the next one is read is known in the clock before, or from a bit of the instruction: it is far to all
+    // registers that this enables.
+    reg is_first;               // this clock is the first one of an instruction
+    reg is_last;                // it is the last one, or there is no instruction
+    wire advances = takes || is_last || (is_first && ins[34]);
+    wire will_wait = waited + 1'b1 != ins[33:32];
     integer i;
-    initial {pc, is_ins, waited, limb, ins} = 0;
+    initial {pc, is_ins, is_first, waited, limb, ins} = 0;
+    initial {is_last, is_limb_0} = 2'b11;
     always @(posedge clk) begin
         if (advances) ins <= words[pc];
         is_ins <= !takes;
+        is_first <= advances && !takes;
+        if (advances) is_last <= takes;
+        else if (waits) is_last <= !will_wait && !is_block && ins[27:26] == 0;
+        else is_last <= is_block ? limb == LAST_OF_BLOCK - 1'b1 : limb[1:0] + 1'b1 == ins[27:26];
         if (advances) pc <= takes ? target : pc + 1'b1;
         if (advances) {waited, limb} <= 0;
         else if (waits) waited <= waited + 1'b1;
         else limb <= limb + 1'b1;
+        is_limb_0 <= advances || (is_limb_0 && waits);
     end
 
     // Its registers.
@@ -98,12 +109,12 @@ module motors_core #(
     end
     always @(posedge clk) begin
         x_is <= is_ins && !takes && !waits;
-        x_first <= limb == 0;
+        x_first <= is_limb_0;
         x_op <= op;
         x_kind <= kind;
         x_at <= at;
         x_limb <= limb;
-        if (kind == NUMBER && limb != 0) x_number <= 0;
+        if (kind == NUMBER && !is_limb_0) x_number <= 0;
         else x_number <= kind != PINS ? ins[15:0] : ins[0] ? CHECKS : {1'b0, pins};
     end
 
@@ -196,7 +207,10 @@ module motors_core #(
     end
 
     // Functions.
-    wire does = runs && x_op == FUNCTION;
+    reg x_does;
+    wire does = x_does && !takes;
+    initial x_does = 0;
+    always @(posedge clk) x_does <= is_ins && !takes && !waits && op == FUNCTION;
     wire [3:0] function_of = x_number[3:0];
     assign take = does && function_of == 0;
     wire rest = does && function_of == 14;

@@ -79,8 +79,13 @@ module motors_host #(
             endcase
         end else if (is_done && is_last) begun <= 0;
         if (is_done && stores) limb <= limb + 1'b1;
-        if (untouch) is_touched[motor] <= 0;
-        if (is_done && is_last && !is_ring) is_touched[host_motor] <= 1;
     end
+    genvar n;
+    generate for (n = 0; n < MOTORS; n = n + 1) begin : motors
+        always @(posedge clk) begin
+            if (is_done && is_last && !is_ring && host_motor == n) is_touched[n] <= 1;
+            else if (untouch && motor == n) is_touched[n] <= 0;
+        end
+    end endgenerate
     `include "rtl/motors/motors_constants.vh"
 endmodule

@@ -26,6 +26,16 @@ module motors_pins #(
     output reg [MOTORS-1:0] enable_pins,
     output reg [DIGITAL*MOTORS-1:0] digital_pins
 );
+    // What the core orders, a clock later: from its instruction to the pins of all motors it is far.
+    reg [MOTOR_BITS-1:0] its_motor;
+    reg makes_step, is_forward, taken, its_levels, its_enable, its_times;
+    reg [15:0] its_data;
+    initial {its_motor, makes_step, is_forward, taken, its_levels, its_enable, its_times, its_data} = 0;
+    always @(posedge clk) begin
+        {its_motor, makes_step, is_forward, taken} <= {motor, step_forward || step_backward, step_forward, take};
+        {its_levels, its_enable, its_times, its_data} <= {set_levels, set_enable, set_times, data};
+    end
+
     (* no_rw_check *) reg [15:0] times[0:255];
     reg [15:0] found;           // of the motor `seen`
     reg [2:0] at, seen;
@@ -37,7 +47,7 @@ module motors_pins #(
         for (i = 0; i < 256; i = i + 1) times[i] = 16'h0c00;
     end
     always @(posedge clk) begin
-        if (set_times) times[{5'd0, motor}] <= data;
+        if (its_times) times[{5'd0, its_motor}] <= its_data;
         found <= times[{5'd0, at}];
         seen <= at;
         at <= tick ? 3'd0 : at + 1'b1;
@@ -52,21 +62,21 @@ module motors_pins #(
         reg has_stepped, went_forward, will_step, will_go_forward, steps, is_on, goes_forward, is_enabled;
         reg [2:0] inverted;
         reg [DIGITAL-1:0] levels, next_levels;
-        wire is_this = motor == n;
+        wire is_this = its_motor == n;
         initial {has_stepped, went_forward, will_step, will_go_forward, steps, is_on, goes_forward, is_enabled} = 0;
         initial {inverted, levels, next_levels} = 0;
         always @(posedge clk) begin
-            if (is_this && (step_forward || step_backward)) {has_stepped, went_forward} <= {1'b1, step_forward};
-            else if (take) has_stepped <= 0;
-            if (take) {will_step, will_go_forward, next_levels} <= {has_stepped, went_forward, levels};
+            if (is_this && makes_step) {has_stepped, went_forward} <= {1'b1, is_forward};
+            else if (taken) has_stepped <= 0;
+            if (taken) {will_step, will_go_forward, next_levels} <= {has_stepped, went_forward, levels};
             else if (tick) will_step <= 0;
             if (tick) begin
                 steps <= will_step;
                 if (will_step) goes_forward <= will_go_forward;
             end
             if (seen == n) is_on <= (is_on || (begins && steps)) && !ends;
-            if (is_this && set_enable) {inverted, is_enabled} <= data[3:0];
-            if (is_this && set_levels) levels <= data[DIGITAL-1:0];
+            if (is_this && its_enable) {inverted, is_enabled} <= its_data[3:0];
+            if (is_this && its_levels) levels <= its_data[DIGITAL-1:0];
             step_pins[n] <= is_on ^ inverted[0];
             direction_pins[n] <= goes_forward ^ inverted[1];
             enable_pins[n] <= is_enabled ^ inverted[2];
