@@ -17,6 +17,9 @@ struct Expected {
     /// The log lacks the record's beginning. verify may then be exact from a later job on, though analyze does not know
     /// an earlier one.
     bool begins_late = false;
+    /// By a fault in the record motors left the path. verify compares their steps with their frames, analyze with the
+    /// path.
+    bool leaves_path = false;
 
     Verdicts of(Tool tool) const {
         const Verdicts all[kTools]{verify, analyze, merge, replay};
@@ -28,6 +31,8 @@ struct Expected {
 inline constexpr Expected kValid{};
 /// A job failed. Its steps are as planned.
 inline constexpr Expected kFailed{kSaysGood, kSaysDoubtful | kSaysBad, kSaysGood, kSaysGood};
+/// The same, and a motor went on without the others.
+inline constexpr Expected kLeftPath{kSaysGood, kSaysBad, kSaysGood, kSaysGood, false, true};
 /// Messages are lost: nobody can say whether the motion was right.
 inline constexpr Expected kLost{kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysUnknown, kSaysUnknown};
 /// Steps and runs contradict each other. A merge does not compare them.
