@@ -130,8 +130,8 @@ bool EpochCheck::ceased(MotorIndex motor) const { return axes_[motor].cut && rep
 std::optional<std::string> EpochCheck::rests_off_touch(Tick touched) const {
     MotorPositions rests;
     for (const Progress& axis : axes_) { rests.append(axis.at); }
-    const auto places_at = [&](Tick tick) { return replay_.positions_at(tick, ran()); };
-    const auto off = off_touch(machine_, replay_.touch(), touched, places_at, rests);
+    const RunFrames frames{replay_.begin(), [&](Tick tick) { return replay_.positions_at(tick, ran()); }};
+    const auto off = off_touch(machine_, replay_.touch(), touched, frames, rests);
     if (!off) { return std::nullopt; }
     return fmt::format("motor {} rests at step {}; its pulses had to cease at step {}",
                        motor_name(machine_, off->motor), off->rests, off->due);

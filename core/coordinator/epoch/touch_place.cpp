@@ -18,19 +18,19 @@ Ticks tolerance_of(const MachineConfig& machine, MotorIndex motor, Ticks debounc
 }  // namespace
 
 std::optional<OffTouch> off_touch(const MachineConfig& machine, const TouchInputs& touch, Tick touched,
-                                  const std::function<MotorPositions(Tick)>& places_at, const MotorPositions& rests) {
-    if (!touch.ceases) { return std::nullopt; }
+                                  const RunFrames& ran, const MotorPositions& rests) {
+    if (!touch.ceases || touched < ran.begin) { return std::nullopt; }
     const std::vector<MotorConfig> motors = motors_of(machine);
     for (const TouchInput& input : touch.any_of) {
         const MotorIndex m = input.motor;
         const Ticks debounce = setup_of(machine, motors[m]).debounce[input.channel];
         const Ticks off = tolerance_of(machine, m, debounce);
         const Tick ceases = touched + debounce;
-        const std::int64_t before = places_at(ceases - off)[m].count();
-        const std::int64_t behind = places_at(ceases + off)[m].count();
+        const std::int64_t before = ran.places_at(ceases - off)[m].count();
+        const std::int64_t behind = ran.places_at(ceases + off)[m].count();
         const std::int64_t rest = rests[m].count();
         if (rest >= std::min(before, behind) && rest <= std::max(before, behind)) { continue; }
-        return OffTouch{m, rest, places_at(ceases)[m].count()};
+        return OffTouch{m, rest, ran.places_at(ceases)[m].count()};
     }
     return std::nullopt;
 }

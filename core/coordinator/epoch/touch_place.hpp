@@ -19,10 +19,16 @@ struct OffTouch {
     std::int64_t due = 0;
 };
 
+/// The frames of an epoch that were run.
+struct RunFrames {
+    Tick begin;
+    std::function<MotorPositions(Tick)> places_at;  // after them the motors rest at their end
+};
+
 /// The first motor that does not rest where its pulses had to cease, within a tick, or within the errors of clocks that
-/// are estimated; nullopt: all do, or the touch does not cease pulses. `touched`: the first touch of the epoch.
-/// `places_at`: where the motors were by the frames that were run; after them they rest at their end.
+/// are estimated; nullopt: all do, or the touch does not cease pulses. `touched`: the first touch of the epoch. If that
+/// was before the frames begin, a contact that bounces may be open at their begin and cease the pulses later.
 std::optional<OffTouch> off_touch(const MachineConfig& machine, const TouchInputs& touch, Tick touched,
-                                  const std::function<MotorPositions(Tick)>& places_at, const MotorPositions& rests);
+                                  const RunFrames& ran, const MotorPositions& rests);
 
 }  // namespace lockstep

@@ -95,9 +95,10 @@ bool Probing::lacks_states(const Probe& probe, const EpochRunner& runner, const 
 
 void Probing::check_place(EpochEnd& end, const EpochRunner& runner, const LoopView& loop) {
     const auto touch = end.rests_on_path() ? runner.first_touch(loop.axes.views()) : std::nullopt;
-    if (!touch) { return; }
-    const auto places_at = [&](Tick tick) { return runner.positions_at(tick, end.ran); };
-    const auto off = off_touch(loop.machine, runner.touch(), touch->tick, places_at, end.positions);
+    const auto begin = runner.made().start();
+    if (!touch || !begin) { return; }
+    const RunFrames ran{*begin, [&](Tick tick) { return runner.positions_at(tick, end.ran); }};
+    const auto off = off_touch(loop.machine, runner.touch(), touch->tick, ran, end.positions);
     if (!off) { return; }
     end.kind = EpochEnd::Kind::OffTouch;
     end.motor = off->motor;

@@ -34,8 +34,10 @@ MotorPositions places_at(Tick tick) {
     return {Position::steps(tick.value / kStepTicks), Position::steps(-tick.value / (2 * kStepTicks))};
 }
 
+const RunFrames kRan{Tick{}, places_at};
+
 std::optional<OffTouch> off(std::int64_t x, std::int64_t y, const MachineConfig& machine = machine_with_probe()) {
-    return off_touch(machine, both(), kTouched, places_at, {Position::steps(x), Position::steps(y)});
+    return off_touch(machine, both(), kTouched, kRan, {Position::steps(x), Position::steps(y)});
 }
 
 TEST(TouchPlace, IsThatOfTheFramesAtTheTouchAndTheDebounce) {
@@ -61,9 +63,16 @@ TEST(TouchPlace, IsKnownWithinTheErrorsOfEstimatedClocks) {
     EXPECT_TRUE(off(kDue + 4, -kDue / 2, machine));
 }
 
+TEST(TouchPlace, IsAnyIfTheTouchWasBeforeTheFrames) {
+    const RunFrames later{kTouched + Ticks{1}, places_at};
+    const MotorPositions elsewhere{Position::steps(1000), Position::steps(1000)};
+    EXPECT_FALSE(off_touch(machine_with_probe(), both(), kTouched, later, elsewhere));
+    EXPECT_TRUE(off_touch(machine_with_probe(), both(), kTouched, {kTouched, places_at}, elsewhere));
+}
+
 TEST(TouchPlace, IsAnyIfTheTouchCeasesNoPulses) {
     const MotorPositions elsewhere{Position::steps(1000), Position::steps(1000)};
-    EXPECT_FALSE(off_touch(machine_with_probe(), both(false), kTouched, places_at, elsewhere));
+    EXPECT_FALSE(off_touch(machine_with_probe(), both(false), kTouched, kRan, elsewhere));
 }
 
 }  // namespace
