@@ -66,10 +66,12 @@ void EpochFollowing::begin(Epoch epoch, AxisLoop& loop) {
     if (const auto channel = touching(follower_.touch(), motor_, device.inputs)) { end_at(device.now, *channel, loop); }
 }
 
-/// An input follows its pin with a delay, so a touch may become known when the axis rests already.
+/// An input follows its pin with a delay, so a touch may become known when the axis rests already. The touch at which
+/// the pulses ceased is one of the epoch, even if its estimated tick is a little behind that of the rest.
 void EpochFollowing::take(std::span<const InputEdge> edges, AxisLoop& loop) {
     for (const InputEdge& edge : edges) {
-        if (!is_open() && edge.tick > rested_) { return; }
+        const bool is_due = has_ceased_ && !touch_;
+        if (!is_open() && edge.tick > rested_ && !is_due) { return; }
         if (is_touch(follower_.touch(), motor_, edge)) { end_at(edge.tick, edge.channel, loop); }
     }
 }

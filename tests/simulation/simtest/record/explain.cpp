@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "tests/simulation/simtest/record/motor_shares.hpp"
+
 namespace lockstep::simtest {
 namespace {
 
@@ -179,11 +181,24 @@ Tick unread_from(const VirtualFault& fault, const Recording& recording) {
     return from - slot - recording.motors[fault.process].lateness;
 }
 
+namespace {
+
+/// They share an axis: where one is, depends on the other.
+bool are_mates(const MachineConfig& machine, std::size_t one, std::size_t other) {
+    const MotorShares shares(machine);
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        if (shares.share(one, i) != 0 && shares.share(other, i) != 0) { return true; }
+    }
+    return false;
+}
+
+}  // namespace
+
 bool may_be_stopped(const Recording& recording, std::size_t axis, Tick from, Tick until) {
     return std::ranges::any_of(recording.faults, [&](const VirtualFault& fault) {
-        const bool mine = fault.is_of_plant() && fault.process == axis;
         const bool over = fault.kind == VirtualFault::Kind::Stick && fault.end() < from;
-        return mine && !over && unread_from(fault, recording) <= until;
+        if (!fault.is_of_plant() || over || unread_from(fault, recording) > until) { return false; }
+        return fault.process == axis || are_mates(recording.machine, fault.process, axis);
     });
 }
 
