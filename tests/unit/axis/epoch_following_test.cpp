@@ -48,6 +48,31 @@ TEST_F(Following, BeginsARunWithTheFirstFrameAndLoadsEachFrameOnce) {
     EXPECT_EQ(ordered<device::LoadFrame>(), 1);
 }
 
+/// The ticks of a reading and of a change are estimated apart.
+TEST_F(Following, TakesTheTouchAtWhichItsPulsesCeasedIfItIsATickBehindTheRest) {
+    constexpr std::uint8_t kChannel = 3;
+    for (const bool has_ceased : {true, false}) {
+        EpochFollowing probing{MotorIndex{0}, machine()};
+        probing.take(MachineState{.epoch = kEpoch}, 100);
+        Frame probe = frame(1);
+        probe.touch = {.any_of = {{MotorIndex{0}, kChannel}}, .opens = false, .ceases = true};
+        AxisLoop l = loop();
+        probing.take(probe, rest_position(0, false), l);
+        ASSERT_TRUE(probing.is_open());
+        DeviceStatus status = at_rest();
+        status.frame = 1;
+        status.finished = true;
+        status.stopped_by_trigger = has_ceased;
+        show(status, true);
+        AxisLoop later = loop();
+        probing.observe(later);
+        probing.end(later);
+        const std::array edges{InputEdge{status.now + Ticks{1}, kChannel, true}};
+        probing.take(edges, later);
+        EXPECT_EQ(probing.touch().has_value(), has_ceased);
+    }
+}
+
 TEST_F(Following, LeavesAFrameAloneUntilTheDeviceHasRoom) {
     const std::uint32_t needed = kFrameHeaders + 1 + kDevicePieces;
     DeviceStatus status = at_rest();

@@ -196,9 +196,10 @@ bool are_mates(const MachineConfig& machine, std::size_t one, std::size_t other)
 
 bool may_be_stopped(const Recording& recording, std::size_t axis, Tick from, Tick until) {
     return std::ranges::any_of(recording.faults, [&](const VirtualFault& fault) {
-        const bool over = fault.kind == VirtualFault::Kind::Stick && fault.end() < from;
-        if (!fault.is_of_plant() || over || unread_from(fault, recording) > until) { return false; }
-        return fault.process == axis || are_mates(recording.machine, fault.process, axis);
+        if (!fault.is_of_plant() || unread_from(fault, recording) > until) { return false; }
+        const bool is_over = fault.kind == VirtualFault::Kind::Stick && fault.end() < from;
+        if (fault.process == axis) { return !is_over; }
+        return are_mates(recording.machine, fault.process, axis);  // where the fault has left the other is not over
     });
 }
 
