@@ -16,7 +16,7 @@ ProgramDevices devices_at(std::uint32_t block, const SwitchedBy& switched, const
     return devices;
 }
 
-/// What the axes report of an epoch, while all that are present rest.
+/// The axes' reports of an epoch. All axes that are present rest.
 struct Rested {
     std::optional<FrameNumber> ran;     // the last frame of those whose frames ended
     std::optional<MotorIndex> differs;  // from them

@@ -12,7 +12,7 @@
 namespace lockstep {
 namespace {
 
-/// What both ends of a wire must have in common.
+/// Inputs of one wire must have these values in common.
 class SameSwitch {
 public:
     SameSwitch(const InputConfig& input, const InputConfig& first, std::string at, ProblemList& problems)

@@ -26,7 +26,7 @@ module motors_pins #(
     output reg [MOTORS-1:0] enable_pins,
     output reg [DIGITAL*MOTORS-1:0] digital_pins
 );
-    // What the core orders, a clock later: from its instruction to the pins of all motors it is far.
+    // The core's orders, delayed by a clock, because the way from its instruction to all pins is long.
     reg [MOTOR_BITS-1:0] its_motor;
     reg makes_step, is_forward, taken, its_levels, its_enable, its_times;
     reg [15:0] its_data;
