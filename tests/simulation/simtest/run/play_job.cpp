@@ -51,7 +51,9 @@ Program starting_at(const Bench& bench, const Counts& motors, Program program) {
 
 void end_record(Bench& bench, JobRecord& job) {
     job.ended = bench.vm().now();
-    if (job.emergency) { bench.recording().emergencies.back().rests = job.ended; }
+    for (Emergency& emergency : bench.recording().emergencies) {
+        if (job.emergency && emergency.asked >= *job.emergency) { emergency.rests = job.ended; }
+    }
     bench.recording().jobs.push_back(std::move(job));
 }
 
@@ -366,7 +368,7 @@ void JobPlayer::press_stop() {
     const InputConfig& input = bench_.machine().inputs[kStopInput];
     const double ticks_per_second = bench_.machine().ticks_per_second();
     const Tick pressed = bench_.vm().now();
-    job_.emergency = pressed;
+    job_.emergency = job_.emergency.value_or(pressed);  // a frozen coordinator may not know of an earlier one
     bench_.recording().emergencies.push_back(
         {.asked = pressed,
          .rests = pressed,
@@ -425,7 +427,10 @@ void JobPlayer::touch(const Interrupt& interrupt) {
     (void)bench_.await([&] { return ended() || disturbed() || in(MachinePhase::Holding); }, seconds, "a touch");
 }
 
-void JobPlayer::stop_at_once() { job_.emergency = play_emergency(bench_); }
+void JobPlayer::stop_at_once() {
+    const Tick asked = play_emergency(bench_);
+    job_.emergency = job_.emergency.value_or(asked);
+}
 
 /// Gives a command that is refused while the machine moves. Home would be accepted at the job's end, so it is sent long
 /// before that or never.
