@@ -19,15 +19,7 @@ VirtualOptions with_standby_that_goes_on() {
     return {.machine = small_machine(), .on_takeover = OnTakeover::Continue, .coordinators = 2};
 }
 
-VirtualOptions on_clocks_apart() {
-    VirtualOptions options{.machine = small_machine()};
-    options.machine.timing.time_source = TimeSource::Network;
-    options.machine.timing.clock_error_limit_us = 250;
-    options.network = {.delay_min{20}, .delay_max{300}};
-    options.start = Tick{10'000'000};
-    options.clocks = test::clocks_apart();
-    return options;
-}
+VirtualOptions on_clocks_apart() { return test::by_clocks_apart(small_machine()); }
 
 void expect_phase(Walker& m, MachinePhase phase, double seconds = 3) {
     ASSERT_TRUE(m.reaches(phase, seconds)) << m.state_text();

@@ -21,6 +21,17 @@ inline std::vector<AxisClocks> clocks_apart() {
             {.process = {.offset = {-1'500'000}, .ppm = -100}, .device = {.offset = {-400}, .ppm = 100}}};
 }
 
+/// A machine of boards with such clocks, whose processes hear each other after 20 to 300 us.
+inline VirtualOptions by_clocks_apart(const MachineConfig& machine) {
+    VirtualOptions options{.machine = MachineSetup{machine}};
+    options.machine.timing.time_source = TimeSource::Network;
+    options.machine.timing.clock_error_limit_us = 250;
+    options.network = {.delay_min{20}, .delay_max{300}};
+    options.start = Tick{10'000'000};
+    options.clocks = clocks_apart();
+    return options;
+}
+
 /// The commanded motion in machine time, the devices' motion in true time, and the axes' published bounds.
 class TrueTime : public VirtualObserver {
 public:

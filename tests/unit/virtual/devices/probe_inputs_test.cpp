@@ -172,16 +172,7 @@ TEST_F(ProbeOfSeveralInputs, AwayDoesNotMoveIfAllAreOpen) {
 /// Each device has its own clock.
 class ProbeOfSeveralClocks : public ProbeOfSeveralInputs {
 protected:
-    static VirtualOptions options() {
-        VirtualOptions options{.machine = MachineSetup{machine_with_probe_inputs()}};
-        options.machine.timing.time_source = TimeSource::Network;
-        options.machine.timing.clock_error_limit_us = 250;
-        options.network = {.delay_min{20}, .delay_max{300}};
-        options.start = Tick{10'000'000};
-        options.clocks = test::clocks_apart();
-        return options;
-    }
-    ProbeOfSeveralClocks() : ProbeOfSeveralInputs(options()) {}
+    ProbeOfSeveralClocks() : ProbeOfSeveralInputs(test::by_clocks_apart(machine_with_probe_inputs())) {}
 
     Ticks widest_error() const {
         Ticks widest;

@@ -264,20 +264,9 @@ TEST(MovesOnAWire, CeaseUpToTheStartVelocityOfEachMotorInAnyDirection) {
     EXPECT_TRUE(ceases(belts, kBoth, start / 1.5));
 }
 
-/// Over a network each process has its own clock.
-VirtualOptions by_clocks_apart(const MachineConfig& machine) {
-    VirtualOptions options{.machine = MachineSetup{machine}};
-    options.machine.timing.time_source = TimeSource::Network;
-    options.machine.timing.clock_error_limit_us = 250;
-    options.network = {.delay_min{20}, .delay_max{300}};
-    options.start = Tick{10'000'000};
-    options.clocks = test::clocks_apart();
-    return options;
-}
-
 class AxesByOwnClocks : public OnAWire {
 protected:
-    AxesByOwnClocks() : OnAWire(by_clocks_apart(wired(small_machine(), {"X", "Y"}))) {}
+    AxesByOwnClocks() : OnAWire(test::by_clocks_apart(wired(small_machine(), {"X", "Y"}))) {}
 };
 
 TEST_F(AxesByOwnClocks, CeaseWithinTheErrorsOfTheClocks) {
@@ -303,7 +292,7 @@ TEST_F(AxesByOwnClocks, AreInFaultIfADeviceDoesNotSeeTheTouch) {
 
 class GantryByOwnClocks : public OnAWire {
 protected:
-    GantryByOwnClocks() : OnAWire(by_clocks_apart(wired(square_gantry(), {"Y1", "Y2"}, 20))) {}
+    GantryByOwnClocks() : OnAWire(test::by_clocks_apart(wired(square_gantry(), {"Y1", "Y2"}, 20))) {}
 };
 
 TEST_F(GantryByOwnClocks, EndsByTheVeto) {
