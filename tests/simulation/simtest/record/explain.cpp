@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "tests/simulation/simtest/record/motor_shares.hpp"
-
 namespace lockstep::simtest {
 namespace {
 
@@ -181,25 +179,13 @@ Tick unread_from(const VirtualFault& fault, const Recording& recording) {
     return from - slot - recording.motors[fault.process].lateness;
 }
 
-namespace {
-
-/// They share an axis: where one is, depends on the other.
-bool are_mates(const MachineConfig& machine, std::size_t one, std::size_t other) {
-    const MotorShares shares(machine);
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        if (shares.share(one, i) != 0 && shares.share(other, i) != 0) { return true; }
-    }
-    return false;
-}
-
-}  // namespace
-
 bool may_be_stopped(const Recording& recording, std::size_t axis, Tick from, Tick until) {
     return std::ranges::any_of(recording.faults, [&](const VirtualFault& fault) {
         if (!fault.is_of_plant() || unread_from(fault, recording) > until) { return false; }
         const bool is_over = fault.kind == VirtualFault::Kind::Stick && fault.end() < from;
         if (fault.process == axis) { return !is_over; }
-        return are_mates(recording.machine, fault.process, axis);  // where the fault has left the other is not over
+        return recording.motors[axis].mates.contains(
+            MotorIndex{fault.process});  // where the fault has left the other is not over
     });
 }
 

@@ -202,6 +202,16 @@ bool MotorShares::moves_only(std::size_t motor, std::size_t axis) const {
     return axes == 1 && shares_[motor][axis] != 0;
 }
 
+MotorSet MotorShares::mates(std::size_t motor) const {
+    MotorSet mates;
+    for (std::size_t m = 0; m < shares_.size(); ++m) {
+        for (std::size_t i = 0; i < shares_[m].size(); ++i) {
+            if (shares_[motor][i] != 0 && shares_[m][i] != 0) { mates.insert(MotorIndex{m}); }
+        }
+    }
+    return mates;
+}
+
 bool MotorShares::is_own(std::size_t axis) const {
     std::size_t movers = 0;
     for (std::size_t m = 0; m < shares_.size(); ++m) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/indices.hpp"
 #include "core/machine.hpp"
 #include "tests/screw_by_bezier.hpp"
 #include "tests/simulation/simtest/record/carriages.hpp"
@@ -40,6 +41,8 @@ public:
     }
     /// A motor moves this axis and no other one.
     bool moves_only(std::size_t motor, std::size_t axis) const;
+    /// The motors with which it shares an axis, and it itself.
+    MotorSet mates(std::size_t motor) const;
     /// Steps of a motor for each step of an axis; of a motor that is curved, the most within the travel.
     double share(std::size_t motor, std::size_t axis) const { return shares_[motor][axis]; }
     /// The same at a place of the axes, in steps.

@@ -64,6 +64,7 @@ struct MotorRecord {
     Tick power_up;
     VirtualClock clock{};           // of the device: steps and tracks are in its time
     Ticks lateness{};               // until the device answers, at most
+    MotorSet mates{};               // motors with which it shares an axis: where one is depends on the others
     std::int64_t play = 0;          // between the motor and its slide, in steps
     std::vector<StepEdge> steps{};  // from power-up on
     std::vector<Track> tracks{};

@@ -101,7 +101,10 @@ Played play(const Scenario& scenario, std::span<VirtualObserver* const> also) {
         played.recording.motors[i].lateness = scenario.lateness(i);
     }
     const MotorShares map(scenario.machine);
-    for (std::size_t m = 0; m < map.motors(); ++m) { played.recording.motors[m].play = map.play(m); }
+    for (std::size_t m = 0; m < map.motors(); ++m) {
+        played.recording.motors[m].play = map.play(m);
+        played.recording.motors[m].mates = map.mates(m);
+    }
     {
         Bench bench(scenario, played);
         for (VirtualObserver* const observer : also) { bench.vm().observe(*observer); }
