@@ -6,6 +6,11 @@
 #include "core/kinematics/motors.hpp"
 
 namespace lockstep {
+namespace {
+
+std::int64_t encoder_ahead(const DeviceStatus& device) { return device.encoder_count - device.position.count(); }
+
+}  // namespace
 
 AxisPosition::AxisPosition(const MachineConfig& machine, MotorIndex motor, KeptOrNot kept)
     : scale_(scale_of(machine, motor)), kept_(std::move(kept)), play_(motors_of(machine)[motor].backlash) {
@@ -36,15 +41,20 @@ void AxisPosition::begin_homing() {
     homed_ = is_assumed_ = false;
 }
 
-void AxisPosition::assume_zero(std::int64_t zero_count) {
+void AxisPosition::assume_zero(std::int64_t zero_count, const DeviceStatus& device) {
     zero_count_ = zero_count;
+    encoder_zero_ = encoder_ahead(device);
     is_assumed_ = true;
 }
 
 /// Steps that the motor lost before the homing no longer count.
 void AxisPosition::set_zero(std::int64_t zero_count, const DeviceStatus& device) {
+    encoder_zero_ = encoder_ahead(device);
+    confirm_zero(zero_count, device);
+}
+
+void AxisPosition::confirm_zero(std::int64_t zero_count, const DeviceStatus& device) {
     zero_count_ = zero_count;
-    encoder_zero_ = device.encoder_count - device.position.count();
     corrected_ = 0;
     kept_run_.reset();
     play_.begin(0, device.position.count());

@@ -33,7 +33,9 @@ public:
     /// axis, otherwise why not.
     FaultCode claim(const DeviceStatus& device, bool device_failed);
     void begin_homing();
-    void assume_zero(std::int64_t zero_count);
+    void assume_zero(std::int64_t zero_count, const DeviceStatus& device);
+    /// The assumed place is the true one. Steps lost since it was assumed still count as lost.
+    void confirm_zero(std::int64_t zero_count, const DeviceStatus& device);
     /// The motor pushes its slide in the direction of its homing.
     void set_zero(std::int64_t zero_count, const DeviceStatus& device);
     /// The device has run these tracks: the play follows them.
@@ -47,13 +49,13 @@ public:
 
     Position in_machine(Position device) const { return device - Displacement::steps(zero_count_); }
     Position in_device(Position machine) const { return machine + Displacement::steps(zero_count_); }
-    /// Encoder minus count since the homing, in steps. A board has no encoder.
+    /// Encoder minus count since the homing or the assumption, in steps. A board has no encoder.
     std::int64_t following_error(const DeviceStatus& device) const {
         return is_board_ ? 0 : device.encoder_count - device.position.count() - encoder_zero_;
     }
     /// So many steps differ that they count as lost.
     bool has_lost_steps(const DeviceStatus& device) const {
-        return homed_ && std::abs(following_error(device)) > most_following_error_;
+        return (homed_ || is_assumed_) && std::abs(following_error(device)) > most_following_error_;
     }
 
     /// The motor rests where its encoder shows it: lost steps move its place, and no longer count as lost.
@@ -74,7 +76,7 @@ private:
     bool is_assumed_ = false;
     FaultCode unproved_ = FaultCode::DeviceMissing;
     std::int64_t zero_count_ = 0;
-    std::int64_t encoder_zero_ = 0;          // encoder minus count, at the homing
+    std::int64_t encoder_zero_ = 0;          // encoder minus count, at the homing or the assumption
     std::uint32_t corrected_ = 0;            // steps
     std::optional<std::uint64_t> kept_run_;  // the run after which this zero was kept
     FollowedPlay play_;
