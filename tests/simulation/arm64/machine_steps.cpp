@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/simulation/simtest/run/play.hpp"
+#include "tests/simulation/simtest/run/play/play.hpp"
 #include "tests/unit/virtual/motors/delta_machine.hpp"
 
 namespace lockstep::simtest {

@@ -6,7 +6,7 @@
 #include "tests/simulation/simtest/check/checks.hpp"
 #include "tests/simulation/simtest/checks_rig.hpp"
 #include "tests/simulation/simtest/record/claims.hpp"
-#include "tests/simulation/simtest/run/play.hpp"
+#include "tests/simulation/simtest/run/play/play.hpp"
 #include "tests/simulation/simtest/run/run.hpp"
 
 namespace lockstep::simtest {

@@ -3,7 +3,7 @@
 
 #include "tests/simulation/simtest/check/checks.hpp"
 #include "tests/simulation/simtest/checks_rig.hpp"
-#include "tests/simulation/simtest/run/play.hpp"
+#include "tests/simulation/simtest/run/play/play.hpp"
 
 namespace lockstep::simtest {
 namespace {

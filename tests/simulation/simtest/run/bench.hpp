@@ -8,7 +8,7 @@
 #include "tests/simulation/simtest/record/claims.hpp"
 #include "tests/simulation/simtest/record/motor_shares.hpp"
 #include "tests/simulation/simtest/run/fault_placer.hpp"
-#include "tests/simulation/simtest/run/play.hpp"
+#include "tests/simulation/simtest/run/play/play.hpp"
 #include "tests/simulation/simtest/run/stream_sender.hpp"
 #include "tests/simulation/simtest/run/watch.hpp"
 

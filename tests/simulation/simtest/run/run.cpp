@@ -4,7 +4,7 @@
 #include "tests/simulation/simtest/check/checks.hpp"
 #include "tests/simulation/simtest/record/epoch_runs.hpp"
 #include "tests/simulation/simtest/record/publication.hpp"
-#include "tests/simulation/simtest/run/play.hpp"
+#include "tests/simulation/simtest/run/play/play.hpp"
 #include "tests/simulation/simtest/run/trace.hpp"
 
 namespace lockstep::simtest {

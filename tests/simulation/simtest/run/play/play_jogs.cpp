@@ -1,4 +1,4 @@
-#include "tests/simulation/simtest/run/play_jogs.hpp"
+#include "tests/simulation/simtest/run/play/play_jogs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,14 @@
-#include "tests/simulation/simtest/run/play_job.hpp"
+#include "tests/simulation/simtest/run/play/play_job.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/kinematics/following_error.hpp"
 #include "tests/simulation/simtest/draw/draw_bounces.hpp"
 #include "tests/simulation/simtest/draw/draw_inputs.hpp"
 #include "tests/simulation/simtest/record/motor_course.hpp"
 #include "tests/simulation/simtest/run/homing_time.hpp"
-#include "tests/simulation/simtest/run/play_correction.hpp"
+#include "tests/simulation/simtest/run/play/move_slides.hpp"
+#include "tests/simulation/simtest/run/play/play_correction.hpp"
 #include "tests/simulation/simtest/run/probe_record.hpp"
 
 namespace lockstep::simtest {
@@ -102,26 +102,6 @@ int most_tries(const Bench& bench) {
     return static_cast<int>(2 * std::ceil(homings));
 }
 
-/// Axes that are homed in place are first put to their park by hand, but not those without a switch that home
-/// together with others by touch. A motor that is still homed notices this, and the machine is in Fault. A distance
-/// that it would not notice is left, but not where slides are pushed again and again: they would reach their limit
-/// switches.
-void put_to_park(Bench& bench) {
-    bool moves = false;
-    const MotorSet& by_touch = bench.homed_by_touch();
-    const bool is_exact = corrects(bench.machine());
-    for (const MotorIndex m : motor_indices(bench.kinematics().motors().size())) {
-        const MotorConfig& motor = bench.kinematics().motors()[m];
-        if (row_of(motor.homing.way).searches || by_touch.contains(m)) { continue; }
-        const double off_mm = motor.homing.park_mm - bench.vm().device(m).plant().position_mm();
-        const std::int64_t steps = std::llround(off_mm * motor.steps_per_mm);
-        if (std::abs(steps) <= (is_exact ? 0 : most_following_error(motor))) { continue; }
-        bench.move_by_hand(m, steps);
-        moves = true;
-    }
-    if (moves) { bench.wait_slots(bench.lossy() ? 40 : 6); }
-}
-
 /// Ends the homing at rest. The homing may have ended before the command arrives.
 void play_homing_stop(Bench& bench, CommandKind kind, double seconds, JobRecord& job) {
     if (kind == CommandKind::EmergencyStop) {
@@ -179,7 +159,7 @@ Tick play_emergency(Bench& bench) {
 }
 
 void play_homing(Bench& bench, Counts& at, const std::optional<HomingStop>& stop) {
-    put_to_park(bench);
+    move_slides_before_homing(bench);
     if (bench.faulted()) { return; }
     JobRecord job{.homing = true, .course = {}, .first_step = bench.steps_made(), .began = bench.vm().now()};
     const double seconds = homing_seconds(bench);

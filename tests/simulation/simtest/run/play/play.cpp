@@ -1,12 +1,12 @@
-#include "tests/simulation/simtest/run/play.hpp"
+#include "tests/simulation/simtest/run/play/play.hpp"
 
 #include <cmath>
 
 #include "core/kinematics/following_error.hpp"
 #include "tests/simulation/simtest/record/explain.hpp"
-#include "tests/simulation/simtest/run/play_correction.hpp"
-#include "tests/simulation/simtest/run/play_job.hpp"
-#include "tests/simulation/simtest/run/play_jogs.hpp"
+#include "tests/simulation/simtest/run/play/play_correction.hpp"
+#include "tests/simulation/simtest/run/play/play_job.hpp"
+#include "tests/simulation/simtest/run/play/play_jogs.hpp"
 
 namespace lockstep::simtest {
 namespace {

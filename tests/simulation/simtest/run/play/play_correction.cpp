@@ -1,4 +1,4 @@
-#include "tests/simulation/simtest/run/play_correction.hpp"
+#include "tests/simulation/simtest/run/play/play_correction.hpp"
 
 #include <algorithm>
 #include <cstdlib>
