@@ -77,24 +77,28 @@ private:
     void check_between(std::size_t i, std::size_t tracks, std::size_t& step, Tick until) {
         const MotorRecord& axis = recording_.motors[i];
         const std::size_t first = step;
-        std::int64_t net = 0;
-        for (; step < axis.steps.size() && axis.steps[step].tick <= until; ++step) {
-            net += axis.steps[step].direction;
+        while (step < axis.steps.size() && axis.steps[step].tick <= until) { ++step; }
+        const auto of_these = [&](const LostRun& lost) { return lost.tracks == tracks; };
+        if (step != first && std::ranges::none_of(axis.lost, of_these)) {
+            object(i, axis.steps[first].tick, "steps outside any track");
         }
-        const auto lost = std::ranges::find(axis.lost, tracks, &LostRun::tracks);
-        if (lost == axis.lost.end()) {
-            if (step != first) { object(i, axis.steps[first].tick, "steps outside any track"); }
-            return;
+        for (const LostRun& lost : axis.lost) {
+            if (of_these(lost)) { check_lost(i, lost); }
         }
-        const Tick over = tracks < axis.tracks.size() ? axis.tracks[tracks].commanded : recording_.ended;
-        const bool stopped = !recording_.emergencies.empty() || may_be_stopped(recording_, i, lost->at, over);
-        if (lost->epoch == 0 || stopped) { return; }
-        const SentEpoch& epoch = recording_.epochs.at(lost->epoch);
-        if (epoch.ceases.contains(MotorIndex{i})) { return; }
-        for (FrameNumber k = lost->recorded; k <= lost->armed; ++k) {
-            if (steps_to_rest(epoch, i, lost->recorded, k) == net) { return; }
+    }
+
+    void check_lost(std::size_t i, const LostRun& lost) {
+        const MotorRecord& axis = recording_.motors[i];
+        const Tick over = lost.tracks < axis.tracks.size() ? axis.tracks[lost.tracks].commanded : recording_.ended;
+        const bool stopped = !recording_.emergencies.empty() || may_be_stopped(recording_, i, lost.at, over);
+        if (lost.epoch == 0 || stopped) { return; }
+        const SentEpoch& epoch = recording_.epochs.at(lost.epoch);
+        const auto net = unrecorded_steps(recording_, i, lost);
+        if (!net || epoch.ceases.contains(MotorIndex{i})) { return; }
+        for (FrameNumber k = lost.recorded; k <= lost.armed; ++k) {
+            if (steps_to_rest(epoch, i, lost.recorded, k) == *net) { return; }
         }
-        object(i, lost->at, "steps after the end of the process that do not match an armed frame and its tail");
+        object(i, lost.at, "steps after the end of the process that do not match an armed frame and its tail");
     }
 
     /// Frame bodies run in order from 1, as sent and armed. A tail follows its body; it is the last track of its epoch.

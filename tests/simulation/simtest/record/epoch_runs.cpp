@@ -9,15 +9,11 @@ namespace {
 
 std::int64_t pulses_at(Position at) { return static_cast<std::int64_t>((at.raw + (Int128{1} << 63)) >> 64); }
 
-/// The net number of steps of an axis between two of its recorded tracks.
-std::int64_t unrecorded_steps(const MotorRecord& axis, std::size_t tracks) {
-    const Tick from = tracks == 0 ? Tick{} : axis.tracks[tracks - 1].start + axis.tracks[tracks - 1].ticks;
-    const bool more = tracks < axis.tracks.size();
-    std::int64_t net = 0;
-    for (const StepEdge& step : axis.steps) {
-        if (step.tick > from && (!more || step.tick <= axis.tracks[tracks].start)) { net += step.direction; }
-    }
-    return net;
+/// When the epoch of a lost run begins. Nothing of the runs before it moves then.
+std::optional<Tick> begin_of(const Recording& recording, const LostRun& lost) {
+    const auto epoch = recording.epochs.find(lost.epoch);
+    if (epoch == recording.epochs.end()) { return std::nullopt; }
+    return epoch->second.frames.begin()->second.start;
 }
 
 /// The faults that can have affected an epoch, from the creation of its first frame until one slot after the end of its
@@ -53,7 +49,7 @@ bool may_be_cut(const Recording& recording, const SentEpoch& epoch, std::size_t 
 LastFrame from_steps(const Recording& recording, const LostRun& lost, const SentEpoch& epoch, std::size_t i) {
     const LastFrame any{lost.recorded, lost.armed};
     if (may_be_cut(recording, epoch, i)) { return any; }
-    const std::int64_t net = unrecorded_steps(recording.motors[i], lost.tracks);
+    const auto net = unrecorded_steps(recording, i, lost);
     std::optional<LastFrame> found;
     for (FrameNumber k = lost.recorded; k <= lost.armed && (k == 0 || epoch.frames.contains(k)); ++k) {
         if (steps_to_rest(epoch, i, lost.recorded, k) != net) { continue; }
@@ -125,6 +121,31 @@ EpochRuns runs_of(const Recording& recording, Epoch number, const SentEpoch& epo
 }
 
 }  // namespace
+
+std::optional<std::int64_t> unrecorded_steps(const Recording& recording, std::size_t axis, const LostRun& lost) {
+    const MotorRecord& motor = recording.motors[axis];
+    const Tick from =
+        lost.tracks == 0 ? Tick{} : motor.tracks[lost.tracks - 1].start + motor.tracks[lost.tracks - 1].ticks;
+    const bool more = lost.tracks < motor.tracks.size();
+    std::optional<Tick> begin;
+    std::optional<Tick> end;
+    for (const LostRun& other : motor.lost) {
+        if (other.tracks != lost.tracks) { continue; }
+        if (other.at < lost.at) { begin = begin_of(recording, lost); }
+        if (other.at <= lost.at) { continue; }
+        end = begin_of(recording, other);
+        if (!end) { return std::nullopt; }
+        break;
+    }
+    std::int64_t net = 0;
+    for (const StepEdge& step : motor.steps) {
+        if (step.tick <= from || (more && step.tick > motor.tracks[lost.tracks].start)) { continue; }
+        const Tick truth = motor.truth(step);
+        if ((begin && truth <= *begin) || (end && truth > *end)) { continue; }
+        net += step.direction;
+    }
+    return net;
+}
 
 std::int64_t steps_to_rest(const SentEpoch& epoch, std::size_t axis, FrameNumber recorded, FrameNumber k) {
     if (k == 0) { return 0; }

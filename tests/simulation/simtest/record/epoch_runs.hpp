@@ -20,6 +20,10 @@ struct EpochRuns {
     std::optional<Tick> parted;  // apart: the begin of the first frame that not all axes ran
 };
 
+/// The net steps of a lost run behind its last recorded frame. nullopt: the axis moved on its own, too, before it
+/// recorded again.
+std::optional<std::int64_t> unrecorded_steps(const Recording& recording, std::size_t axis, const LostRun& lost);
+
 /// The net steps of a lost run from its last recorded frame to the rest after frame k.
 std::int64_t steps_to_rest(const SentEpoch& epoch, std::size_t axis, FrameNumber recorded, FrameNumber k);
 

@@ -46,6 +46,7 @@ constexpr std::array kExplanations{
     Explanation{Cause::Corruption, FaultCode::AxisLost},
     // A state with another position looks like an axis that is elsewhere.
     Explanation{Cause::Corruption, FaultCode::PositionMismatch},
+    Explanation{Cause::Corruption, FaultCode::TouchMissed},
     Explanation{Cause::Freeze, FaultCode::FramesDiffer},
     Explanation{Cause::Freeze, FaultCode::AxisLost},
     // Axes that move on their own halt without their coordinator.
