@@ -164,9 +164,10 @@ private:
         }
     }
 
-    /// If a device stops, or a switch stops it, its axis vetoes what begins four slots after its next state, which
-    /// comes a slot or two later. If the axis stalls as well, the others run all frames for which they have evidence,
-    /// up to the lease. So does the device of a process that meanwhile has ended or receives nothing.
+    /// If a device stops, or a switch or the emergency stop's input stops it, its axis vetoes what begins four slots
+    /// after its next state, which comes a slot or two later. If the axis stalls as well, the others run all frames for
+    /// which they have evidence, up to the lease. So does the device of a process that meanwhile has ended or receives
+    /// nothing.
     FrameNumber most_apart() const {
         using Kind = VirtualFault::Kind;
         const ProtocolTiming& t = recording_.machine.timing;
@@ -176,7 +177,10 @@ private:
         const auto is_away = [](const VirtualFault& fault) {
             return fault.kind == Kind::Crash || fault.kind == Kind::Cut;
         };
-        const bool knows_no_veto = any(is_away) && any([](const VirtualFault& fault) { return fault.is_of_plant(); });
+        const bool is_by_input = std::ranges::any_of(
+            recording_.emergencies, [](const Emergency& emergency) { return emergency.by_input.has_value(); });
+        const bool is_stopped = is_by_input || any([](const VirtualFault& fault) { return fault.is_of_plant(); });
+        const bool knows_no_veto = any(is_away) && is_stopped;
         const Slot slots = stalls || knows_no_veto ? t.lease_slots() : rules::kLastCheckSlots + 1;
         return static_cast<FrameNumber>(1 + slots / t.frame_slots);
     }
