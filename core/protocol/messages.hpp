@@ -329,9 +329,10 @@ struct MachineState {
     std::optional<ProbeResult> probe;
     // Another coordinator needs these to continue the job in motion:
     JobKind job_kind = JobKind::Run;
-    std::optional<std::uint64_t> program;      // Command::program of the job; nullopt: none is in motion
-    std::uint32_t events_from = 0;             // the events of the program before this block have been published
-    StaticVector<FrameRest, kMaxRests> rests;  // of the frames of the epoch that may be the last one run, in order
+    std::optional<std::uint64_t> program;           // Command::program of the job; nullopt: none is in motion
+    StaticVector<std::int64_t, kMaxAxes> leg_from;  // of each axis, in steps: where the leg of these frames began
+    std::uint32_t events_from = 0;                  // the events of the program before this block have been published
+    StaticVector<FrameRest, kMaxRests> rests;       // of the frames of the epoch that may be the last one run, in order
     // For people and for checks of the record. No decision depends on it:
     std::optional<HomedByTouch> homing;
     RecordCounts published;          // record messages published by this process

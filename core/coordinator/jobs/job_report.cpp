@@ -65,6 +65,7 @@ void report_rests(const PathTask& task, const EpochRunner& runner, MachineState&
     }
     state.job_kind = task.job.kind;
     state.program = task.job.program_id;
+    state.leg_from = task.from;
     runner.made().list_rests(oldest, state.rests);
 }
 

@@ -37,16 +37,18 @@ std::expected<FrameNumber, TakeoverDoubt> last_frame(const MachineState& last, s
 
 using Places = std::vector<double>;  // mm, of each axis of the machine
 
-/// The places of the axes before a block of the program. Axes that the program does not name keep their places.
+/// The places of the axes before a block of the program. Axes that the program does not name keep the places `from`
+/// which the leg began. Where the motors rest on the way does not show them exactly, if the steps of motors that move
+/// several axes are coarser than those of the axes.
 Places places_before(std::uint32_t block, const KnownProgram& program, const MachineConfig& machine,
-                     const AxisCounts& at) {
+                     const AxisCounts& from) {
     const std::span<const double> named = program.place_before(block).value();
     Places places;
-    for (std::size_t i = 0; i < at.size(); ++i) {
+    for (std::size_t i = 0; i < from.size(); ++i) {
         const auto found = std::ranges::find(program.axes(), machine.axes[i].name);
         const auto place = static_cast<std::size_t>(found - program.axes().begin());
         const bool is_named = found != program.axes().end();
-        places.push_back(is_named ? named[place] : to_mm(machine.axes[i], static_cast<double>(at[i])));
+        places.push_back(is_named ? named[place] : to_mm(machine.axes[i], static_cast<double>(from[i])));
     }
     return places;
 }
@@ -87,9 +89,9 @@ struct MoveWay {
     }
 };
 
-MoveWay way_of(std::uint32_t block, const KnownProgram& program, const MachineConfig& machine, const AxisCounts& at) {
-    MoveWay way{.from = places_before(block, program, machine, at),
-                .to = places_before(block + 1, program, machine, at),
+MoveWay way_of(std::uint32_t block, const KnownProgram& program, const MachineConfig& machine, const AxisCounts& from) {
+    MoveWay way{.from = places_before(block, program, machine, from),
+                .to = places_before(block + 1, program, machine, from),
                 .arc = {}};
     const Block* const known = program.block(block);
     const auto* move = known != nullptr ? std::get_if<ProgramMove>(&known->action) : nullptr;
@@ -174,7 +176,9 @@ std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, cons
     if (said == last.rests.end()) { return Doubt(TakeoverDoubt::UnreceivedFrames); }
     const std::uint32_t block = said->place.block;
     const auto first = program.leg_of(block);
-    if (program.ends_before(block)) { return Doubt(TakeoverDoubt::OtherPlan); }
+    if (program.ends_before(block) || last.leg_from.size() != machine.axes.size()) {
+        return Doubt(TakeoverDoubt::OtherPlan);
+    }
     if (block >= program.known() || !first || *first < program.first_kept()) {
         return Doubt(TakeoverDoubt::UnknownProgram);
     }
@@ -187,17 +191,15 @@ std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, cons
         slides.append(slide_of(*motor.state));
     }
     Places axis_steps;
-    AxisCounts at;
     for (const AxisIndex i : axis_indices(machine.axes.size())) {
         axis_steps.push_back(kinematics.axis_steps(i, {slides.begin(), slides.size()}));
-        at.append(std::llround(axis_steps[i]));
     }
     JobRest rest{.first = *first,
-                 .from = counts_of(places_before(*first, program, machine, at), machine),
+                 .from = counts_of(places_before(*first, program, machine, last.leg_from), machine),
                  .done = {},
                  .place = said->place,
                  .positions = {}};
-    const MoveWay way = way_of(block, program, machine, at);
+    const MoveWay way = way_of(block, program, machine, last.leg_from);
     const auto fits = check_place(*said, way, machine, kinematics, axis_steps);
     if (!fits) { return Doubt(fits.error()); }
     if (said->last) {

@@ -12,7 +12,7 @@
 namespace lockstep {
 
 /// Increases with every change that would make an older process misread a newer one (idl/README.md).
-inline constexpr int kProtocol = 21;
+inline constexpr int kProtocol = 22;
 
 /// Returns the user data of a participant, such as "lockstep 3 mill".
 std::string calling_card(int protocol, const std::string& machine);

@@ -52,10 +52,14 @@ struct SetpointMessage : lockstep_wire_Setpoint {
 
 /// A machine state and the array it points to; not copyable either.
 struct MachineStateMessage : lockstep_wire_MachineState {
-    MachineStateMessage() : lockstep_wire_MachineState{} { rest_storage.reserve(kMaxRests); }
+    MachineStateMessage() : lockstep_wire_MachineState{} {
+        rest_storage.reserve(kMaxRests);
+        leg_storage.reserve(kMaxAxes);
+    }
     MachineStateMessage(MachineStateMessage&&) = default;
     std::vector<lockstep_wire_FrameRest> rest_storage;
     std::vector<std::int64_t> place_storage;
+    std::vector<std::int64_t> leg_storage;
     std::vector<double> probe_storage;
     std::vector<double> analog_storage;
 };

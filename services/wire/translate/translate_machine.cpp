@@ -31,8 +31,13 @@ FrameRest rest_from_wire(const lockstep_wire_FrameRest& wire) {
     return {wire.frame, {wire.block, {along}}, wire.last, wire.digest};
 }
 
-std::span<const std::int64_t> places_of(const lockstep_wire_MachineState& wire) {
-    return {wire.pause_place._buffer, wire.pause_place._length};
+std::span<const std::int64_t> places_of(const dds_sequence_long_long& wire) { return {wire._buffer, wire._length}; }
+
+void places_to_wire(const StaticVector<std::int64_t, kMaxAxes>& places, std::vector<std::int64_t>& storage,
+                    dds_sequence_long_long& wire) {
+    storage.assign(places.begin(), places.end());
+    const auto size = static_cast<std::uint32_t>(storage.size());
+    wire = {._maximum = size, ._length = size, ._buffer = storage.data(), ._release = false};
 }
 
 void pause_to_wire(const MachinePause& pause, MachineStateMessage& message) {
@@ -40,10 +45,7 @@ void pause_to_wire(const MachinePause& pause, MachineStateMessage& message) {
     message.pause_tool = pause.why.tool;
     message.pause_wait_left_s = pause.wait_left_s;
     write_text(pause.why.text, message.pause_text);
-    message.place_storage.assign(pause.place.begin(), pause.place.end());
-    const auto size = static_cast<std::uint32_t>(message.place_storage.size());
-    message.pause_place = {
-        ._maximum = size, ._length = size, ._buffer = message.place_storage.data(), ._release = false};
+    places_to_wire(pause.place, message.place_storage, message.pause_place);
 }
 
 void pause_from_wire(const lockstep_wire_MachineState& wire, std::optional<MachinePause>& into, Checks& check) {
@@ -57,7 +59,7 @@ void pause_from_wire(const lockstep_wire_MachineState& wire, std::optional<Machi
     pause.why.text = text;
     pause.wait_left_s = wire.pause_wait_left_s;
     pause.place.clear();
-    for (const std::int64_t steps : places_of(wire)) { pause.place.append(steps); }
+    for (const std::int64_t steps : places_of(wire.pause_place)) { pause.place.append(steps); }
 }
 
 auto analog_from_wire(const lockstep_wire_MachineState& wire, Checks& check) {
@@ -148,12 +150,14 @@ void check_numbers(const lockstep_wire_MachineState& wire, Checks& check) {
     check.within<std::int32_t>("pause_tool", wire.pause_tool, 0, kMaxTool);
     check.finite("pause_wait_left_s", wire.pause_wait_left_s);
     check.within<std::size_t>("the number of places", wire.pause_place._length, 0, kMaxAxes);
+    check.within<std::size_t>("the number of places where a leg began", wire.leg_from._length, 0, kMaxAxes);
     check.within<std::size_t>("the number of rests", wire.rests._length, 0, lockstep_wire_MAX_RESTS);
     if (!check.passed()) { return; }
     for (const auto& rest : std::span(wire.rests._buffer, wire.rests._length)) {
         check.far("a rest's place", rest.along_high);
     }
-    for (const std::int64_t steps : places_of(wire)) { check.far("a pause's place", steps); }
+    for (const std::int64_t steps : places_of(wire.pause_place)) { check.far("a pause's place", steps); }
+    for (const std::int64_t steps : places_of(wire.leg_from)) { check.far("the place where a leg began", steps); }
 }
 
 }  // namespace
@@ -218,6 +222,7 @@ void to_wire(const MachineState& state, MachineStateMessage& message) {
             .pause_wait_left_s = 0,
             .is_run = state.job_kind == JobKind::Run,
             .program = state.program.value_or(0),
+            .leg_from = {},
             .events_from = state.events_from,
             .rests = {},
             .job_messages = state.published.job_events,
@@ -245,6 +250,7 @@ void to_wire(const MachineState& state, MachineStateMessage& message) {
     for (const FrameRest& rest : state.rests) { message.rest_storage.push_back(rest_to_wire(rest)); }
     const auto size = static_cast<std::uint32_t>(message.rest_storage.size());
     wire.rests = {._maximum = size, ._length = size, ._buffer = message.rest_storage.data(), ._release = false};
+    places_to_wire(state.leg_from, message.leg_storage, wire.leg_from);
 }
 
 FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
@@ -301,6 +307,7 @@ std::expected<void, std::string> from_wire(const lockstep_wire_MachineState& wir
     for (const auto& rest : std::span(wire.rests._buffer, wire.rests._length)) {
         into.rests.append(rest_from_wire(rest));
     }
+    for (const std::int64_t steps : places_of(wire.leg_from)) { into.leg_from.append(steps); }
     if (!wire.has_writer) {
         into.lease.reset();
         return {};

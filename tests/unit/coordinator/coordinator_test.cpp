@@ -213,6 +213,7 @@ TEST_F(StandbyAlone, FailsWhereNoFrameLeadsFromWhereTheAxisRests) {
     axis_.ran = 5;
     axis_.position = Position::steps(2500);
     const Displacement place_mm = Displacement::steps(20);
+    owner_.leg_from = {0};
     owner_.rests = {{5, {0, place_mm}, false, digest_of(std::span(&axis_.position, 1))}};
     for (int i = 0; i < 5; ++i) { pass(true, true); }
     ASSERT_TRUE(takes_over());

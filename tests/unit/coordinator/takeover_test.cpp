@@ -64,7 +64,7 @@ protected:
 
     MachineConfig machine = make_machine();
     Program program{.name = "two", .axes = {"X", "Y"}, .start_mm = {10, 20}, .blocks = {}};
-    MachineState last{.epoch = kEpoch};
+    MachineState last{.epoch = kEpoch, .leg_from = {1000, 2000}};
     std::vector<AxisView> axes;
 };
 
@@ -170,6 +170,21 @@ TEST_F(RestOfJob, IsInDoubtIfAnAxisIsNotWhereTheFirstFrameEnds) {
     EXPECT_EQ(doubt(), TakeoverDoubt::NotAsked);
     last.rests[0].digest += 1;
     EXPECT_EQ(doubt(), TakeoverDoubt::Misplaced);
+}
+
+/// The motors rest a step beside the path, because their steps are coarser than the axes'.
+TEST_F(RestOfJob, TakesThePlaceWhereTheLegBeganOfAnAxisThatTheProgramDoesNotName) {
+    program.axes = {"X"};
+    program.start_mm = {10};
+    program.blocks = {{1, ProgramMove{{30}, 20, false}}};
+    rest_at(10);
+    last.leg_from = {1000, 2002};
+    ASSERT_TRUE(rest().has_value());
+    EXPECT_EQ(rest()->from[1], 2002);
+    last.leg_from = {1000, 2010};
+    EXPECT_EQ(doubt(), TakeoverDoubt::Misplaced) << "it is not there";
+    last.leg_from = {};
+    EXPECT_EQ(doubt(), TakeoverDoubt::OtherPlan) << "the owner did not say it";
 }
 
 /// Joining of moves and rounding to whole steps take an axis up to three steps from the program.

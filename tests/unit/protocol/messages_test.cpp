@@ -31,7 +31,7 @@ TEST(Messages, OfAnAxisThatNobodyFilledInSayNothing) {
 }
 
 TEST(Messages, OfAMachineThatNobodyFilledInSayNothing) {
-    const MachineState machine;
+    const MachineState machine{};
     EXPECT_EQ(machine.stamp, 0);
     EXPECT_EQ(machine.fault, FaultCode::None);
     EXPECT_EQ(machine.fault_motor, std::nullopt);

@@ -154,6 +154,7 @@ MachineState RandomMessages::machine_state() {
             .probe = maybe(probe()),
             .job_kind = coin() ? JobKind::Run : JobKind::Move,
             .program = maybe(bits()),
+            .leg_from = places(),
             .events_from = static_cast<std::uint32_t>(bits()),
             .rests = rests(),
             .homing = maybe(HomedByTouch{index(kMaxAxes), static_cast<HomingStage>(index(6))}),
@@ -172,12 +173,17 @@ ProbeResult RandomMessages::probe() {
     return probe;
 }
 
+StaticVector<std::int64_t, kMaxAxes> RandomMessages::places() {
+    StaticVector<std::int64_t, kMaxAxes> places;
+    for (std::size_t i = index(kMaxAxes + 1); i > 0; --i) { places.append(far()); }
+    return places;
+}
+
 MachinePause RandomMessages::pause() {
     MachinePause pause{.why = {.reason = static_cast<PauseReason>(index(5)),
                                .tool = static_cast<std::int32_t>(between(0, kMaxTool)),
                                .text = std::string(index(kMaxPauseText + 1), 'p')},
-                       .place = {}};
-    for (std::size_t i = index(kMaxAxes + 1); i > 0; --i) { pause.place.append(far()); }
+                       .place = places()};
     pause.wait_left_s = static_cast<double>(index(1000));
     return pause;
 }

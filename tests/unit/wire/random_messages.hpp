@@ -20,6 +20,7 @@ public:
     ClockReply clock_reply();
     MachineState machine_state();
     StaticVector<FrameRest, kMaxRests> rests();
+    StaticVector<std::int64_t, kMaxAxes> places();
     MachinePause pause();
     ProbeResult probe();
     LeaseHolder writer();
