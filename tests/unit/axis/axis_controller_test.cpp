@@ -248,6 +248,32 @@ TEST_F(AssumedPlace, IsNoHomeUntilItIsTakenForTrue) {
     EXPECT_EQ(state.phase, AxisPhase::Standby);
 }
 
+TEST_F(AssumedPlace, KeepsTheStepsLostSinceItWasAssumed) {
+    device.encoder_count = 100;  // lost before
+    owned(10, 20);
+    command(AxisCommandKind::Assume, 1234);
+    loop(slot + 1);
+    EXPECT_EQ(state.following_error_steps, 0);
+    device.encoder_count = 98;
+    command(AxisCommandKind::TakePlace, 1234);
+    loop(slot + 1);
+    EXPECT_TRUE(state.homed);
+    EXPECT_EQ(state.following_error_steps, -2);
+}
+
+TEST_F(AssumedPlace, IsLostWithMoreLostSteps) {
+    owned(10, 20);
+    command(AxisCommandKind::Assume, 1234);
+    loop(slot + 1);
+    device.encoder_count = -4;
+    loop(slot + 1);
+    EXPECT_EQ(state.fault, FaultCode::FollowingError);
+    command(AxisCommandKind::Reset);
+    loop(slot + 1);
+    command(AxisCommandKind::TakePlace, 1234);
+    EXPECT_TRUE(has_notice(loop(slot + 1), AxisNotice::Kind::CommandRefused, FaultCode::NotHomed));
+}
+
 TEST_F(AssumedPlace, IsLostWithAFault) {
     owned(10, 20);
     command(AxisCommandKind::Assume, 1234);

@@ -39,6 +39,7 @@ class HomingByTouch : public Rig {
 protected:
     explicit HomingByTouch(const MachineConfig& machine = belts_from(30, 40))
         : Rig({.machine = MachineSetup{machine}}) {}
+    explicit HomingByTouch(const VirtualOptions& options) : Rig(options) {}
 
     void begin_homing() {
         ASSERT_TRUE(reaches(MachinePhase::Idle, 2)) << describe();
@@ -61,6 +62,27 @@ protected:
     }
     bool any_homed() const {
         return std::ranges::any_of(vm.axis_states(), [](const auto& state) { return state->homed; });
+    }
+};
+
+class HomingInNoise : public HomingByTouch {
+public:
+    explicit HomingInNoise(const VirtualOptions& options) : HomingByTouch(options) {}
+    void TestBody() override {}
+    /// Returns whether the machine says that all axes are homed.
+    bool homes() {
+        const auto over = [this] {
+            return vm.state() && (vm.state()->phase == MachinePhase::Fault || vm.state()->outcome);
+        };
+        (void)reaches(MachinePhase::Idle, 5);
+        (void)ask(CommandKind::Home);
+        (void)vm.advance_until(over, Ticks{60'000'000});
+        wait(1);
+        for (std::size_t m = 0; m < vm.axis_states().size(); ++m) {
+            if (!vm.axis_states()[m]->homed) { return false; }
+        }
+        expect_true_places();
+        return true;
     }
 };
 
@@ -138,6 +160,33 @@ TEST_F(HomingByTouch, EndsIfAnAxisIsLost) {
     wait(0.2);
     ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
     expect_homed();
+}
+
+/// The slide of X is pushed behind the touch of its switch, while Y homes.
+TEST_F(HomingByTouch, NoticesStepsThatAreLostBehindATouch) {
+    begin_homing();
+    ASSERT_TRUE(
+        vm.advance_until([this] { return vm.state()->homing && vm.state()->homing->axis == kY; }, Ticks{30'000'000}));
+    vm.device(0).plant().push(-30);
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 5)) << describe();
+    EXPECT_EQ(fault(), FaultCode::FollowingError);
+    EXPECT_FALSE(any_homed());
+    wait(0.2);
+    ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
+    expect_homed();
+}
+
+/// A damaged state of a motor must not move the zero, wherever in the homing it comes.
+TEST(HomingByTouchWithDamagedMessages, NeverTakesAWrongPlace) {
+    std::size_t homed = 0;
+    for (std::uint64_t seed = 200; seed < 220; ++seed) {
+        VirtualOptions options{.machine = MachineSetup{belts_from(30, 40)}, .seed = seed};
+        options.network.corrupted = 0.005;
+        SCOPED_TRACE(seed);
+        HomingInNoise machine(options);
+        homed += machine.homes() ? 1 : 0;
+    }
+    EXPECT_GT(homed, 5u);
 }
 
 class HomingFromTheFarEnd : public HomingByTouch {
