@@ -59,7 +59,7 @@ TEST(OutputReport, SaysWhereTheDeviceDiffersFromTheProgram) {
 }
 
 TEST(OutputReport, IsEmptyWhileAllOutputsAreOffAsTheProgramAsks) {
-    const MachineState machine;
+    const MachineState machine{};
     EXPECT_EQ(outputs_text(status_with(device_with(0, 0), &machine)), "");
 }
 
