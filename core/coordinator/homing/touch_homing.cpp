@@ -69,6 +69,7 @@ TouchHoming::Next TouchHoming::next(const LoopView& loop) {
     if (is_placed_) { return Next::Move; }
     if (left_ == 0) {
         if (!is_switch_known(loop)) { return Next::Wait; }
+        if (!assumed_) { assumed_.emplace(axis_, loop); }
         end_.home_closed = is_closed(loop);
         bool goes_on =
             take(std::exchange(has_begun_, true) ? homing_.next(end_) : homing_.begin(end_.home_closed, at_));
@@ -78,12 +79,12 @@ TouchHoming::Next TouchHoming::next(const LoopView& loop) {
         }
         if (fault_ != FaultCode::None) { return Next::Fail; }
         if (!goes_on) {
-            place_ = at_ - zero_;
+            places_ = assumed_->truth(at_ - zero_, loop);
             return Next::End;
         }
     }
     is_placed_ = true;
-    place_ = end_of_travel(left_ < 0);
+    places_ = assumed_->for_move(end_of_travel(left_ < 0), loop);
     return Next::Assume;
 }
 

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/axis/own_moves/homing.hpp"
+#include "core/coordinator/homing/assumed_place.hpp"
 #include "core/coordinator/state/coordinator_loop.hpp"
 #include "core/program.hpp"
 
@@ -28,15 +29,15 @@ public:
 
     enum class Next : std::uint8_t {
         Wait,    // until it is known whether the switch is closed
-        Assume,  // that the axis is at place(); then comes a move
+        Assume,  // that the motors of the axis are at places(); then comes a move
         Move,    // on program()
-        End,     // the axis is truly at place()
+        End,     // they are truly at places()
         Fail,    // by fault()
     };
     /// Returns what to do next. Call it only while nothing moves and no order is open.
     Next next(const LoopView& loop);
-    /// The axis's place in whole steps.
-    std::int64_t place() const { return place_; }
+    /// Where the motors are; only those of the axis change.
+    const MotorCounts& places() const { return places_; }
     FaultCode fault() const { return fault_; }
 
     /// The next move, from where the axes are assumed to be.
@@ -62,9 +63,10 @@ private:
     bool is_placed_ = false;         // for its next part
     std::int64_t from_ = 0;          // where this part begins, and its target, as assumed
     std::int64_t to_ = 0;
-    std::int64_t at_ = 0;    // from where homing began
-    std::int64_t zero_ = 0;  // the same, at the axis's true zero, once it is known
-    std::int64_t place_ = 0;
+    std::int64_t at_ = 0;                  // from where homing began
+    std::int64_t zero_ = 0;                // the same, at the axis's true zero, once it is known
+    std::optional<AssumedPlace> assumed_;  // once homing has begun
+    MotorCounts places_;
     LocalEnd end_;  // of the last move
     std::optional<Slot> rested_;
     FaultCode fault_ = FaultCode::None;

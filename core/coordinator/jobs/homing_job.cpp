@@ -51,15 +51,9 @@ void assume_places(const activity::Homing& homing, CoordinatorLoop& loop) {
     for (const MotorIndex m : motors) { loop.order(m, AxisCommandKind::Assume).target_steps = places[m]; }
 }
 
-/// Moves the assumed place of one axis. Each motor rests on a whole step, and keeps by how much it differs from the
-/// place of the other axes.
-void assume_place(AxisIndex axis, std::int64_t place, CoordinatorLoop& loop) {
-    const AxisCounts here = loop.counts();
+void assume(AxisIndex axis, const MotorCounts& places, CoordinatorLoop& loop) {
     for (const MotorIndex m : loop.kinematics.motors_of_axes({axis})) {
-        const std::int64_t shift =
-            loop.kinematics.motor_at(m, here, axis, place) - loop.kinematics.motor_at(m, here, axis, here[axis]);
-        const std::int64_t count = loop.axes.state(m)->position.count();
-        loop.order(m, AxisCommandKind::Assume).target_steps = count + shift;
+        loop.order(m, AxisCommandKind::Assume).target_steps = places[m];
     }
 }
 
@@ -109,10 +103,10 @@ void advance_touch(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoop
     TouchHoming& touch = *homing.touch;
     switch (touch.next(loop)) {
         case TouchHoming::Next::Wait: return;
-        case TouchHoming::Next::Assume: return assume_place(touch.axis(), touch.place(), loop);
+        case TouchHoming::Next::Assume: return assume(touch.axis(), touch.places(), loop);
         case TouchHoming::Next::Move: return begin_homing_move(homing, touch.program(loop), jobs, loop);
         case TouchHoming::Next::End:
-            assume_place(touch.axis(), touch.place(), loop);
+            assume(touch.axis(), touch.places(), loop);
             homing.by_touch.erase(touch.axis());
             homing.skew.begin(loop.axes);
             return homing.touch.reset();
