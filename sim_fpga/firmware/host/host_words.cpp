@@ -43,8 +43,9 @@ void MotorOrders::fill(unsigned motor, ItemWriter& items) {
     put_changed(motor, kSegmentHead, whole_, items);
 }
 
-/// The board takes all words of a message at the same instant. So they must be of one run: the words are read in the
-/// order that a device reads them, and are sent only if the run did not change meanwhile.
+/// A board takes all words of a message at the same instant. So they must be of one run: the words are read in the
+/// order that a device reads them, and are sent only if the run did not change meanwhile. Where a device takes one word
+/// after the other, a frame is vetoed before others are armed, and armed after its run has begun.
 bool MotorOrders::fill_orders(unsigned motor, ItemWriter& items) {
     constexpr std::array kOrders{kTrigger, kStop, kBeat, kEnable, kCaptureTail, kEventTail};
     if (!items.has_room(kOrders.size() + 3)) { return false; }
@@ -55,9 +56,9 @@ bool MotorOrders::fill_orders(unsigned motor, ItemWriter& items) {
     for (std::size_t n = 0; n < kOrders.size(); ++n) { values[n] = window_.load(kOrders[n]); }
     if (window_.load(kRunRequest) != run) { return false; }
     for (std::size_t n = 0; n < kOrders.size(); ++n) { put_changed(motor, kOrders[n], values[n], items); }
-    put_changed(motor, kArmed, armed, items);
     put_changed(motor, kVeto, veto, items);
-    return put_changed(motor, kRunRequest, run, items);
+    put_changed(motor, kRunRequest, run, items);
+    return put_changed(motor, kArmed, armed, items);
 }
 
 void MotorOrders::fill_identify(unsigned motor, ItemWriter& items) {

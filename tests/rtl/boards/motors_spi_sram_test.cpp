@@ -2,14 +2,12 @@
 // SRAM, and eight motors.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <numeric>
 #include <vector>
 
-#include "Vmotors_spi_sram.h"
 #include "tests/rtl/axis/one_frame.hpp"
+#include "tests/rtl/boards/board_pins.hpp"
 #include "tests/rtl/boards/spi_host.hpp"
 #include "tests/rtl/motors/joined_frames.hpp"
 
@@ -18,20 +16,11 @@ namespace {
 
 using namespace registers;
 
-constexpr std::size_t kMotors = 8;
-constexpr int kTickPeriods = 5000;                          // of the oscillator
-constexpr std::uint64_t kQuarter = std::uint64_t{1} << 62;  // of a step in each tick
+constexpr std::size_t kMotors = BoardPins::kMotors;
 
 class EightMotors : public ::testing::Test {
 protected:
-    EightMotors() {
-        pins_.select_n = 1;
-        pins_.sck = pins_.mosi = 0;
-        pins_.inputs = 0;
-    }
-    void run(int ticks) {
-        for (int left = ticks * kTickPeriods; left > 0; --left) { period(); }
-    }
+    void run(int ticks) { board_.run(ticks); }
     /// Writes a word, and waits until the device has it.
     void write(std::size_t motor, std::size_t offset, std::uint64_t value) {
         host_.write(motor, offset, {value});
@@ -51,52 +40,8 @@ protected:
                       static_cast<std::int64_t>(start), ticks, velocity, 0);
     }
 
-    Vmotors_spi_sram pins_;
-    SpiHost host_{[this](bool select, bool bit) { return transfer(select, bit); }};
-    std::array<int, kMotors> rises_{};
-
-private:
-    static constexpr int kHalfBitPeriods = 8;  // eight clocks for a bit
-
-    bool transfer(bool select, bool bit) {
-        pins_.select_n = select ? 0 : 1;
-        pins_.mosi = bit ? 1 : 0;
-        for (int n = 0; n < kHalfBitPeriods; ++n) { period(); }
-        pins_.sck = select ? 1 : 0;
-        const bool received = pins_.miso != 0;
-        for (int n = 0; n < kHalfBitPeriods; ++n) { period(); }
-        pins_.sck = 0;
-        return received;
-    }
-    /// A period of the oscillator.
-    void period() {
-        pins_.oscillator = 0;
-        pins_.eval();
-        pins_.sram_read_data = pins_.sram_oe_n == 0 ? sram_[pins_.sram_address] : 0;
-        pins_.oscillator = 1;
-        pins_.eval();
-        write_sram();
-        for (std::size_t n = 0; n < kMotors; ++n) { rises_[n] += (pins_.step & ~was_step_) >> n & 1; }
-        was_step_ = pins_.step;
-    }
-    /// The SRAM takes what is at its pins when the pulse of we_n ends.
-    void write_sram() {
-        const bool writes = pins_.sram_we_n == 0;
-        EXPECT_FALSE(pins_.sram_drives != 0 && pins_.sram_oe_n == 0) << "one side alone drives the data";
-        EXPECT_EQ(pins_.sram_drives != 0, writes);
-        if (writes) {
-            EXPECT_FALSE(was_writing_) << "a pulse lasts half a clock";
-            EXPECT_EQ(pins_.sram_address, was_address_) << "the address is there before the pulse";
-            sram_[pins_.sram_address] = pins_.sram_write_data;
-        }
-        was_writing_ = writes;
-        was_address_ = pins_.sram_address;
-    }
-
-    std::vector<std::uint16_t> sram_ = std::vector<std::uint16_t>(std::size_t{1} << 18, 0xDEAD);
-    bool was_writing_ = false;
-    unsigned was_address_ = 0;
-    unsigned was_step_ = 0;
+    BoardPins board_;
+    SpiHost host_{[this](bool select, bool bit) { return board_.transfer(select, bit); }};
 };
 
 /// Then a tick takes longest. The host can still write while all motors wait for their first frame.
@@ -113,7 +58,7 @@ TEST_F(EightMotors, AllBeginTheirFramesInTheSameTickAndLoseNone) {
     for (std::size_t motor = 0; motor < kMotors; ++motor) {
         EXPECT_EQ(shown(motor, kCount), steps);
         EXPECT_EQ(read(motor, kStatus), kStatusFinished | kStatusEnabled);
-        EXPECT_EQ(rises_[motor], steps);
+        EXPECT_EQ(board_.rises(motor), steps);
     }
 }
 
@@ -127,7 +72,7 @@ TEST_F(EightMotors, TellWhatTheyHave) {
 }
 
 TEST_F(EightMotors, HaveThreeSwitchesEach) {
-    pins_.inputs = 1U << (3 * 5 + 1);
+    board_.close_inputs(1U << (3 * 5 + 1));
     while (shown(5, kTick) < 4) { run(1); }
     EXPECT_EQ(shown(5, kStatus), kStatusLimitMax);
     EXPECT_EQ(shown(4, kStatus), 0);

@@ -70,15 +70,15 @@ public:
         send(static_cast<std::uint64_t>(kind) << 22 | motor << 17 | offset / 8, 24);
     }
     void end() { (void)transfer_(false, false); }
-
-private:
-    static constexpr std::size_t kNone = ~std::size_t{0};
-
     static std::uint16_t crc_of(std::uint64_t word, unsigned bits) {
         unsigned crc = 0xFFFF;
         while (bits-- > 0) { crc = crc << 1 ^ (((crc >> 15 ^ word >> bits) & 1) != 0 ? 0x1021U : 0U); }
         return static_cast<std::uint16_t>(crc);
     }
+
+private:
+    static constexpr std::size_t kNone = ~std::size_t{0};
+
     void begin() { at_ = 0; }
     void send(std::uint64_t word, unsigned bits) {
         (void)exchange(word, bits);
