@@ -69,7 +69,7 @@ int run(const MachineSetup& machine, const BoardLinkConfig& board) {
     auto windows = make_windows(machine, board.name);
     if (!windows) { return end_with_failure(windows.error()); }
     const std::chrono::microseconds patience{machine.timing.slot_us * rules::silence_slots(machine.timing)};
-    BoardBridge bridge(board.link, std::move(*windows), patience);
+    BoardBridge bridge(board.link, *windows, patience);
     BoardReport report(board);
     ServiceManager manager;
     manager.ready(fmt::format("board {} of machine {}", board.name, machine.name));

@@ -7,24 +7,18 @@
 #include <cerrno>
 #include <cstring>
 
+#include "services/board/line_failure.hpp"
+
 namespace lockstep {
 namespace {
-
-std::unexpected<std::string> failure(const std::string& path, const std::string& why, const std::string& remedy) {
-    return std::unexpected(path + ": " + why + "; " + remedy);
-}
-
-std::unexpected<std::string> held(const std::string& path) {
-    return failure(path, "another program uses it",
-                   "end it, or the machine if it is lockstep-board (lockstep down), and try again");
-}
 
 std::unexpected<std::string> not_opened(const std::string& path) {
     switch (errno) {
         case EACCES:
-            return failure(path, std::strerror(errno), "let this user use it: adduser USER dialout, then log in again");
-        case EBUSY: return held(path);
-        default: return failure(path, std::strerror(errno), "check the board's cable");
+            return line_failure(path, std::strerror(errno),
+                                "let this user use it: adduser USER dialout, then log in again");
+        case EBUSY: return line_is_held(path);
+        default: return line_failure(path, std::strerror(errno), "check the board's cable");
     }
 }
 
@@ -35,14 +29,14 @@ std::expected<Descriptor, std::string> open_serial_line(const std::string& path,
     Descriptor line(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     if (!line.is_open()) { return not_opened(path); }
     termios mode{};
-    if (::tcgetattr(line.get(), &mode) != 0) { return failure(path, std::strerror(errno), "name a serial line"); }
-    if (::flock(line.get(), LOCK_EX | LOCK_NB) != 0) { return held(path); }
+    if (::tcgetattr(line.get(), &mode) != 0) { return line_failure(path, std::strerror(errno), "name a serial line"); }
+    if (::flock(line.get(), LOCK_EX | LOCK_NB) != 0) { return line_is_held(path); }
     ::cfmakeraw(&mode);
     mode.c_cflag |= CLOCAL | CREAD | HUPCL;
     ::cfsetispeed(&mode, speed);
     ::cfsetospeed(&mode, speed);
     if (::tcsetattr(line.get(), TCSANOW, &mode) != 0) {
-        return failure(path, std::strerror(errno), "use an adapter that can do 1 MBd");
+        return line_failure(path, std::strerror(errno), "use an adapter that can do 1 MBd");
     }
     ::ioctl(line.get(), TIOCEXCL);
     ::tcflush(line.get(), TCIOFLUSH);

@@ -71,7 +71,8 @@ std::expected<std::vector<BoardLinkConfig>, Failure> boards_of(const MachineSetu
     if (!boards.empty()) { return boards; }
     if (machine.board_links.empty()) {
         return std::unexpected(
-            bad_input("machine '" + machine.name + "' has no board with a link; docs/pico.md tells how to add one"));
+            bad_input("machine '" + machine.name +
+                      "' has no board with a link; docs/pico.md and docs/fpga.md tell how to add one"));
     }
     std::vector<std::string> names;
     for (const BoardLinkConfig& board : machine.board_links) { names.push_back(board.name); }
@@ -143,15 +144,22 @@ proto::BoardReport measure_board(const MachineSetup& machine, const BoardLinkCon
 }
 
 proto::BoardReport identify_board(const MachineSetup& machine, const BoardLinkConfig& board) {
+    if (board.link.kind == LinkName::Kind::Spi) {
+        proto::BoardReport report = board_report(machine, board);
+        report.set_lack("an FPGA behind an SPI has no light to flash; follow its wires from " + board.link.place);
+        return report;
+    }
     return report_of_answer(machine, board, [](BoardLook& look, proto::BoardReport& /*report*/) { look.identify(); });
 }
 
 std::string why_not_opened(const BoardLinkConfig& board) {
     const LinkName& link = board.link;
-    if (link.kind != LinkName::Kind::Serial || ::access(link.place.c_str(), R_OK | W_OK) == 0) { return ""; }
-    const std::string remedy = errno == EACCES
-                                   ? "let this user use it: adduser USER dialout, then log in again"
-                                   : fmt::format("check the board's cable, and its name in /dev/{}", kByName);
+    if (link.kind == LinkName::Kind::Tcp || ::access(link.place.c_str(), R_OK | W_OK) == 0) { return ""; }
+    const bool is_spi = link.kind == LinkName::Kind::Spi;
+    const std::string remedy = errno == EACCES ? fmt::format("let this user use it: adduser USER {}, then log in again",
+                                                             is_spi ? "spi" : "dialout")
+                               : is_spi        ? "enable the SPI, and compare the name with: ls /dev/spidev*"
+                                        : fmt::format("check the board's cable, and its name in /dev/{}", kByName);
     return fmt::format("{}: {}; {}", link.place, std::strerror(errno), remedy);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/kinematics/motors.hpp"
+#include "core/protocol/frame_room.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
@@ -50,6 +51,18 @@ std::string fault_of(const MachineSetup& machine, const MotorConfig& motor, cons
     return {};
 }
 
+/// The bits a second that a motor's words take on an SPI (sim_fpga/rtl/motors/motors_spi.v): each step's tick, the
+/// pieces of full frames, and in each slot a look at what the device shows and some orders.
+double spi_bits_per_s(const MachineSetup& machine, const MotorConfig& motor) {
+    constexpr double kWordBits = 80;
+    constexpr double kPieceBits = 4 * kWordBits;
+    constexpr double kSlotBits = 24 * kWordBits + 6 * 4 * kWordBits;
+    const double slots_per_s = 1e6 / static_cast<double>(machine.timing.slot_us);
+    const double steps_per_s = motor.max_velocity_mm_s * motor.steps_per_mm;
+    const double pieces_per_s = frame_pieces(machine.timing) * slots_per_s / machine.timing.frame_slots;
+    return steps_per_s * kWordBits + pieces_per_s * kPieceBits + slots_per_s * kSlotBits;
+}
+
 /// Checks one board, whose block has the number `number` among those with a link.
 class BoardLinkRules {
 public:
@@ -76,10 +89,24 @@ public:
                           fmt::format("no motor has a device of board {0}; write device: \"board:{0}/0\" in the block "
                                       "of one that it drives, or remove the board",
                                       name));
+        if (board_.link.kind == LinkName::Kind::Spi) { check_spi(at); }
         return problems_.take();
     }
 
 private:
+    void check_spi(const std::string& at) {
+        constexpr double kPart = 0.75;
+        double bits = 0;
+        for (const MotorConfig& motor : linked_motors_of(machine_)) {
+            bits += motor.device.place == board_.name ? spi_bits_per_s(machine_, motor) : 0;
+        }
+        const double most = kPart * board_.link.speed_hz;
+        problems_.require(bits <= most, at + "link",
+                          fmt::format("the motors of board {} need {:.0f} bit/s of link {}, which has {:.0f} for them; "
+                                      "write a higher speed, such as spi:{}@{:.0f}, if the board bears it, lower "
+                                      "max_velocity_mm_s, or connect some motors to another board",
+                                      board_.name, bits, board_.link.text(), most, board_.link.place, bits / kPart));
+    }
     bool is_taken() const {
         std::vector<std::string> names = motor_names(machine_);
         for (const AxisConfig& axis : machine_.axes) { names.push_back(axis.name); }

@@ -34,20 +34,26 @@ TEST(DeviceName, RefusesNamesWithoutAPlaceOrOfAnotherKind) {
     }
 }
 
-TEST(LinkName, IsASerialLineOrATcpConnection) {
+TEST(LinkName, IsASerialLineAnSpiOrATcpConnection) {
     EXPECT_EQ(read_link_name("serial:/dev/ttyUSB0"), (LinkName{LinkName::Kind::Serial, "/dev/ttyUSB0"}));
     EXPECT_EQ(read_link_name("tcp:127.0.0.1:7001"), (LinkName{LinkName::Kind::Tcp, "127.0.0.1", 7001}));
+    EXPECT_EQ(read_link_name("spi:/dev/spidev0.0"), (LinkName{LinkName::Kind::Spi, "/dev/spidev0.0", 0, 5'000'000}));
+    EXPECT_EQ(read_link_name("spi:/dev/spidev1.2@250000"),
+              (LinkName{LinkName::Kind::Spi, "/dev/spidev1.2", 0, 250'000}));
 }
 
 TEST(LinkName, IsWrittenAsItWasRead) {
-    for (const char* text : {"serial:/dev/ttyUSB0", "tcp:127.0.0.1:7001"}) {
+    for (const char* text :
+         {"serial:/dev/ttyUSB0", "tcp:127.0.0.1:7001", "spi:/dev/spidev0.0", "spi:/dev/spidev0.0@1000000"}) {
         EXPECT_EQ(read_link_name(text).value().text(), text);
     }
 }
 
 TEST(LinkName, RefusesOthers) {
-    for (const char* text : {"", "/dev/ttyUSB0", "serial:", "serial:ttyUSB0", "serial:/", "usb:1", "tcp:", "tcp:host:1",
-                             "tcp:127.0.0.1", "tcp:127.0.0.1:0", "tcp:127.0.0.1:70000", "tcp::7001"}) {
+    for (const char* text :
+         {"", "/dev/ttyUSB0", "serial:", "serial:ttyUSB0", "serial:/", "usb:1", "tcp:", "tcp:host:1", "tcp:127.0.0.1",
+          "tcp:127.0.0.1:0", "tcp:127.0.0.1:70000", "tcp::7001", "spi:", "spi:spidev0.0", "spi:/dev/spidev0.0@",
+          "spi:/dev/spidev0.0@0", "spi:/dev/spidev0.0@1MHz", "spi:/dev/spidev0.0@5000000000"}) {
         EXPECT_FALSE(read_link_name(text)) << text;
     }
 }

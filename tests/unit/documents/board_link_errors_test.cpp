@@ -1,4 +1,5 @@
 // The errors in `board` with a link and in the devices behind it, and what such a board means when it is right.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +31,8 @@ TEST(BoardLinks, WrongValuesAreRefusedWithPlaceValueAndRemedy) {
          "name: \"pico1\" link: \"serial:/dev/...\" }"},
         {with_board(R"(device: "board:pico1/16")", {kPico}), "m:10:3: error: device is \"board:pico1/16\"; it must be"},
         {with_board(kDevice, {R"(board { name: "pico1" link: "ttyUSB0" })"}),
-         "m:12:23: error: the link of board pico1 is \"ttyUSB0\"; it must be serial:PATH or tcp:ADDRESS:PORT"},
+         "m:12:23: error: the link of board pico1 is \"ttyUSB0\"; it must be serial:PATH, spi:PATH, spi:PATH@HZ or "
+         "tcp:ADDRESS:PORT"},
         {with_board(kDevice, {R"(board { name: "pico1" link: "tcp:1.2.3.4:1" host: "shed" })"}),
          "board[0] has a link, so board[0].host and board[0].device have no meaning; remove them"},
         {with_board(kDevice, {kPico, R"(board { name: "Pico1" link: "tcp:1.2.3.4:1" })"}),
@@ -47,6 +49,46 @@ TEST(BoardLinks, WrongValuesAreRefusedWithPlaceValueAndRemedy) {
         EXPECT_THAT(found, HasSubstr(message));
         EXPECT_THAT(found, testing::MatchesRegex("m:[0-9]+:[0-9]+: [^\n]*\n?")) << "one error, with its place";
     }
+}
+
+TEST(BoardLinks, AnSpiCarriesTheWordsOfItsMotors) {
+    const auto with_link = [](const std::string& link) {
+        return parse_machine(with_board(kDevice, {R"(board { name: "pico1" link: ")" + link + "\" }"}));
+    };
+    const auto read = with_link("spi:/dev/spidev0.0");
+    ASSERT_TRUE(read) << to_text("m", read.error());
+    EXPECT_EQ(read->board_links[0].link.speed_hz, LinkName::kSpiSpeed_hz);
+    const auto slow = with_link("spi:/dev/spidev0.0@1000000");
+    ASSERT_FALSE(slow);
+    // 80 bits for each of 12,000 steps/s, and looks, orders and pieces.
+    EXPECT_EQ(
+        to_text("m", slow.error()),
+        "m:12:23: error: the motors of board pico1 need 2144000 bit/s of link spi:/dev/spidev0.0@1000000, which has "
+        "750000 for them; write a higher speed, such as spi:/dev/spidev0.0@2858667, if the board bears it, lower "
+        "max_velocity_mm_s, or connect some motors to another board\n");
+}
+
+/// As docs/fpga.md says.
+TEST(BoardLinks, AnSpiCarriesAsManyMotorsAsItsDocumentSays) {
+    const auto suits = [](const char* link, int motors, int steps_per_s) {
+        std::string text =
+            "name: \"m\" tick_ns: 50000 timing { slot_us: 40000 stall_slots: 2 late_check_slots: 1 "
+            "freshness_slots: 3 send_ahead_slots: 14 frame_slots: 5 clock_error_limit_us: 5000 "
+            "segment_entries: 192 output_entries: 24 }\n";
+        for (int n = 0; n < motors; ++n) {
+            text += fmt::format(
+                "axis {{ name: \"A{0}\" device: \"board:f/{0}\" steps_per_mm: 50 start_velocity_mm_s: 1 "
+                "max_velocity_mm_s: {1} max_accel_mm_s2: 500 position_min_mm: 0 position_max_mm: 9 }}\n",
+                n, steps_per_s / 50);
+        }
+        const auto read = parse_machine(text + "board { name: \"f\" link: \"" + link + "\" }");
+        if (!read) { EXPECT_THAT(to_text("m", read.error()), HasSubstr("bit/s of link")); }
+        return read.has_value();
+    };
+    EXPECT_TRUE(suits("spi:/dev/spidev0.0", 3, 9'800)) << "as fast as a plan with ticks of 50 us can be";
+    EXPECT_FALSE(suits("spi:/dev/spidev0.0", 4, 9'800));
+    EXPECT_TRUE(suits("spi:/dev/spidev0.0@6250000", 4, 9'800));
+    EXPECT_TRUE(suits("spi:/dev/spidev0.0@6250000", 8, 5'000));
 }
 
 TEST(BoardLinks, AreReadAgainAsTheyWereWrittenAndArePartOfTheHash) {

@@ -104,13 +104,32 @@ TEST(DeviceAbilities, ChangesOfOutputsFitIntoTheRingOfADeviceWhoseOutputsAreUsed
     EXPECT_NE(one.lack(device), "");
 }
 
-/// As sim_fpga/rtl/README.md and docs/pico.md advise.
+/// As sim_fpga/rtl/README.md, docs/fpga.md and docs/pico.md advise.
 TEST(DeviceAbilities, RingsOfSmallDevicesSufficeWithTheTimingThatTheirDocumentsName) {
     Case one;
     one.machine.outputs.push_back({.name = "AIR", .motor = "X", .channel = 0});
     const DeviceAbilities chip{.segment_entries = 256, .output_entries = 32, .frames_stay = true};
     one.machine.timing = {.frame_slots = 16, .segment_entries = 192, .output_entries = 24};
     EXPECT_EQ(one.lack(chip), "");
+    one.machine.tick_ns = 50'000;
+    one.motor.max_velocity_mm_s = 120;
+    one.machine.timing = {.slot_us = 40'000,
+                          .stall_slots = 2,
+                          .late_check_slots = 1,
+                          .freshness_slots = 3,
+                          .send_ahead_slots = 14,
+                          .frame_slots = 5,
+                          .segment_entries = 192,
+                          .output_entries = 24,
+                          .clock_error_limit_us = 5000};
+    one.machine.timing.time_source = TimeSource::Network;  // as a device with its own clock
+    DeviceAbilities board = chip;
+    board.lead = Ticks{290};
+    board.behind = Ticks{3};
+    EXPECT_EQ(one.lack(board), "");
+    board.lead = Ticks{298};
+    EXPECT_NE(one.lack(board), "");
+    one.machine.tick_ns = 1000;
     const DeviceAbilities pico{.segment_entries = 1024, .output_entries = 64};
     one.machine.timing = {.output_entries = 64};
     EXPECT_EQ(one.lack(pico), "");
