@@ -49,12 +49,8 @@ void AxisPosition::assume_zero(std::int64_t zero_count, const DeviceStatus& devi
 
 /// Steps that the motor lost before the homing no longer count.
 void AxisPosition::set_zero(std::int64_t zero_count, const DeviceStatus& device) {
-    encoder_zero_ = encoder_ahead(device);
-    confirm_zero(zero_count, device);
-}
-
-void AxisPosition::confirm_zero(std::int64_t zero_count, const DeviceStatus& device) {
     zero_count_ = zero_count;
+    if (!is_assumed_) { encoder_zero_ = encoder_ahead(device); }
     corrected_ = 0;
     kept_run_.reset();
     play_.begin(0, device.position.count());

@@ -34,9 +34,7 @@ public:
     FaultCode claim(const DeviceStatus& device, bool device_failed);
     void begin_homing();
     void assume_zero(std::int64_t zero_count, const DeviceStatus& device);
-    /// The assumed place is the true one. Steps lost since it was assumed still count as lost.
-    void confirm_zero(std::int64_t zero_count, const DeviceStatus& device);
-    /// The motor pushes its slide in the direction of its homing.
+    /// The motor pushes its slide in the direction of its homing. Steps lost since a place was assumed stay lost.
     void set_zero(std::int64_t zero_count, const DeviceStatus& device);
     /// The device has run these tracks: the play follows them.
     void follow(const ReusedVector<ExecutedTrack>& tracks) {

@@ -30,7 +30,7 @@ void take_place(const AxisCommand& order, bool rests, AxisLoop& loop) {
     if (const FaultCode why = refusal(rests, loop); why != FaultCode::None) { return loop.refuse(order, why); }
     AxisCondition& condition = loop.condition;
     if (!condition.position.is_assumed()) { return loop.refuse(order, FaultCode::NotHomed); }
-    condition.position.confirm_zero(zero_of(order, loop), loop.device.status());
+    condition.position.set_zero(zero_of(order, loop), loop.device.status());
     condition.phases.happen(AxisEvent::Zeroed);
     loop.notice({AxisNotice::Kind::Homed, FaultCode::None, 0});
     condition.orders.end(FaultCode::None);

@@ -94,8 +94,7 @@ struct Hash {
     void add(const MachineState& s) {
         of(s.term, s.stamp, s.tick, s.phase, s.fault, s.fault_motor, s.epoch, s.sent, s.veto, s.job, s.outcome,
            s.job_begun, s.line, s.job_fault, s.lacks_blocks, s.progress, s.remaining_s, s.overrides, s.motors_present,
-           s.config_hash, s.devices, s.lease, s.pause, s.job_kind, s.program, s.leg_from, s.events_from,
-           s.rests);
+           s.config_hash, s.devices, s.lease, s.pause, s.job_kind, s.program, s.leg_from, s.events_from, s.rests);
         add_if(s.probe.has_value(), s.probe);
     }
     void add(const ProgramEvent& event) { of(event.kind, event.index, event.value); }
