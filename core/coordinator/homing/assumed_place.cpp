@@ -22,6 +22,10 @@ AxisCounts near_travel(AxisCounts at, const LoopView& loop) {
 
 }  // namespace
 
+AssumedPlace::AssumedPlace(AxisIndex axis, const LoopView& loop) : axis_(axis), began_(loop.counts()) {
+    for (std::size_t m = 0; m < loop.axes.size(); ++m) { given_.append(0); }
+}
+
 MotorCounts AssumedPlace::for_move(std::int64_t place, const LoopView& loop) {
     const AxisCounts here = near_travel(loop.counts(), loop);
     moved_ += place - loop.counts()[axis_];

@@ -15,9 +15,7 @@ namespace lockstep {
 class AssumedPlace {
 public:
     /// The axis and the others rest where `loop` shows them.
-    AssumedPlace(AxisIndex axis, const LoopView& loop) : axis_(axis), began_(loop.counts()) {
-        for (std::size_t m = 0; m < loop.axes.size(); ++m) { given_.append(0); }
-    }
+    AssumedPlace(AxisIndex axis, const LoopView& loop);
 
     /// Returns where the motors are assumed to be for a move of the axis from `place`. Only motors of the axis change.
     MotorCounts for_move(std::int64_t place, const LoopView& loop);
