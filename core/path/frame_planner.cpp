@@ -57,44 +57,49 @@ void rest_boards(PathFrame& frame, std::size_t motors) {
     }
 }
 
-/// A straight interval can be left anywhere. A curved one is finished as planned, because the limits are those of its
-/// middle. A rest is finished too, but the speed behind it is still free. When braking, any interval is left. The
-/// interval numbers of the tail may be those before a change of the overrides.
+/// A straight interval begins anew in each frame. A curved one is passed as planned: the square of the speed is linear
+/// from end to end. A rest is finished too, but the speed behind it is still free. When braking, any interval begins
+/// anew; then the interval numbers of the tail may be those before a change of the overrides.
 FrameCursor cursor_at(const TimedPath& path, const SpeedWindow& window, Ticks t, bool is_braking) {
     const double at = as_double(t);
     const auto& passages = path.passages();
     std::size_t m = passages.size() - 1;
     while (m > 0 && passages[m].begin > at) { --m; }
     const Passage& passage = passages[m];
-    FrameCursor cursor{.interval = passage.interval, .begin = passage.begin - at, .w0 = passage.w0, .w1 = passage.w1};
-    if (!is_braking) {
-        const IntervalKind kind = window.interval(passage.interval).kind;
-        if (kind == IntervalKind::Rest) { cursor.w1.reset(); }
-        if (kind != IntervalKind::Straight) { return cursor; }
-    }
     std::size_t k = passage.first_phase;
     const auto& phases = path.phases();
     while (k + 1 < phases.size() && phases[k + 1].interval == passage.interval && phases[k].end() <= at) { ++k; }
     const double speed = phases[k].speed(at);
-    cursor.begin = 0;
-    cursor.w0 = speed * speed;
-    cursor.w1.reset();
-    cursor.u = phases[k].along(at);
-    if (is_braking) { cursor.interval = window.interval_at(phases[k].piece, cursor.u); }
+    const double w = speed * speed;
+    FrameCursor cursor{.interval = passage.interval, .w0 = w, .u = phases[k].along(at), .w = w};
+    if (is_braking) {
+        cursor.interval = window.interval_at(phases[k].piece, cursor.u);
+        return cursor;
+    }
+    const IntervalKind kind = window.interval(passage.interval).kind;
+    if (kind != IntervalKind::Straight) {
+        cursor.begin = passage.begin - at;
+        cursor.w0 = passage.w0;
+    }
+    if (kind == IntervalKind::Curved) { cursor.w1 = passage.w1; }
     return cursor;
 }
 
-/// Traces the tail from the cursor on: the interval in progress as planned, the others as slowly as possible.
+/// Traces the tail from the cursor on, as slowly as possible. An interval under way is left at once, because the bounds
+/// of an interval hold for any part of it. The remainder keeps them at constant speed, and as planned, so also at the
+/// least speed that they allow at its end. This is at most the planned one, so the path behind can be followed. Only
+/// charges, which count in the middle of an interval, may ask for more in its remainder; then it is passed as planned.
 void trace_tail(const FrameCursor& from, const SpeedWindow& window, TimedPath& tail) {
-    tail.begin(from.begin);
-    double w0 = from.w0;
+    tail.begin(0);
+    double w0 = from.w;
     for (std::size_t k = from.interval; k < window.end(); ++k) {
         Interval part = window.interval(k);
         if (part.kind == IntervalKind::Rest) { break; }
         const Quadratic& shape = window.shape_of(part);
-        if (k == from.interval && !from.w1) { part.from = from.u; }
-        const bool is_under_way = k == from.interval && from.w1;
-        const double w1 = is_under_way ? *from.w1 : window.bounds(part).least_after(w0);
+        const bool is_under_way = k == from.interval;
+        if (is_under_way) { part.from = from.u; }
+        const double least = window.bounds(part).least_after(w0);
+        const double w1 = is_under_way && from.w1 ? std::min(least, *from.w1) : least;
         if (w1 <= 0) {
             tail.brake(shape, part, k, w0, w1);
             break;
@@ -304,23 +309,22 @@ void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt
     const double from = failure.is_full ? 0 : at - static_cast<double>(kSlowTicks << std::min(attempt, 8));
     const double to = failure.is_full ? as_double(ticks) : at;
     if (!has_made_) { start_slower(slower); }
+    begin_anew();
     const Ticks enough = failure.is_crowded ? setup_.frame_ticks : Ticks{};
     double least = at_.w0;
     std::size_t last = at_.interval;
     const auto& passages = path_.passages();
     for (std::size_t k = 0; k < passages.size(); ++k) {
         const Passage& passage = passages[k];
+        const double begin = std::max(passage.begin, 0.0);
         const double end = k + 1 < passages.size() ? passages[k + 1].begin : path_.end();
-        const bool is_fixed = passage.interval == at_.interval && at_.w1;
         const Interval& part = window_.interval(passage.interval);
-        least = is_fixed ? *at_.w1 : std::max(0.0, window_.bounds(part).least_after(least));
+        least = std::max(0.0, window_.bounds(part).least_after(least));
         last = passage.interval;
         const bool is_rest = part.kind == IntervalKind::Rest;
-        if (!is_fixed && (is_rest ? end : passage.begin) >= from) {
-            window_.lower(last + 1, std::max(slower * passage.w1, least));
-        }
+        if ((is_rest ? end : begin) >= from) { window_.lower(last + 1, std::max(slower * passage.w1, least)); }
         if (failure.is_full && last > at_.interval) { window_.slow(last, slower, enough); }
-        if (passage.begin > to + kMargin_ticks) { break; }
+        if (begin > to + kMargin_ticks) { break; }
     }
     window_.update(at_.interval + 1, std::min(last + 1, window_.end() - 1));
 }
@@ -330,6 +334,15 @@ void FramePlanner::start_slower(double slower) {
     window_.lower(at_.interval, slower * at_.w0);
     window_.update(at_.interval, at_.interval);
     at_.w0 = window_.interval(at_.interval).reach;
+}
+
+/// The interval under way may be passed slower than planned from here on.
+void FramePlanner::begin_anew() {
+    if (!at_.w1) { return; }
+    at_.begin = 0;
+    at_.w0 = at_.w;
+    at_.w1.reset();
+    window_.cut(at_.interval, at_.u, at_.w);
 }
 
 /// The interval under way is finished as planned.

@@ -55,10 +55,11 @@ struct FrameCounts {
 /// Where a frame begins.
 struct FrameCursor {
     std::size_t interval = 0;
-    double begin = 0;  // of the interval, in ticks from the frame's begin: at most 0
-    double w0 = 0;
-    std::optional<double> w1;  // present if the interval is under way and is finished as planned
-    double u = 0;              // Straight: place where the frame begins
+    double begin = 0;          // of the interval, in ticks from the frame's begin: at most 0
+    double w0 = 0;             // at this begin
+    std::optional<double> w1;  // at its end; present if the interval is under way and is passed as planned
+    double u = 0;              // the place on the interval's piece where the frame begins
+    double w = 0;              // at this place
     StaticVector<MotionPoint, kMaxAxes> points;
 };
 
@@ -99,6 +100,7 @@ private:
     bool fit_tail(PathFrame& frame, const FrameCursor& from);
     void slow_down(const FitFailure& failure, Ticks ticks, int attempt);
     void start_slower(double slower);
+    void begin_anew();
     void brake();
     PathPlace place_of_rest(const PathFrame& frame, const FrameCursor& behind) const;
     void take(const FrameCursor& next);

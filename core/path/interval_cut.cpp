@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kMost = PieceJoints::kMost;
 constexpr std::size_t kLeastParts = 4;  // of a piece that may be faster than the joints at its ends
-constexpr double kChordsInPart = 16;  // of a part, if outputs change along the path: a tail passes through a whole part
+constexpr double kChordsInPart = 16;  // of a part, if outputs change along the path: a tail may pass through all of it
 
 /// The angle by which the piece's direction changes over `length`, rad.
 double direction_change(const Quadratic& piece, double length, const PathSetup& setup) {

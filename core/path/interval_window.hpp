@@ -30,7 +30,7 @@ public:
     /// The greatest w at the end of an interval from which all later limits can be kept.
     double reach_behind(std::size_t number) const;
 
-    /// Moves the beginning of a straight interval to u, and sets w there.
+    /// Moves the beginning of an interval to u, and sets w there.
     void cut(std::size_t number, double u, double w);
     /// Lowers the cap of an interval's beginning, or of the end of the path.
     void lower(std::size_t number, double cap);

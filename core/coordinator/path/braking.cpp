@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/path/interval_cut.hpp"
 #include "core/path/path_setup.hpp"
 
 namespace lockstep {
@@ -64,7 +63,6 @@ Braking::Braking(const MachineConfig& machine, const Way& way) {
     const PathSetup setup = path_setup_of(machine);
     const MotorMap& map = setup.motor_map;
     const bool is_curved = setup.has_map() && map.bends(way.direction);
-    before_mm_ = is_curved ? IntervalCut::kMaxInterval_mm : 0;
     const double per_second = machine.ticks_per_second();
     const auto add = [&](const AxisLimits& limits, const Slopes& slopes) {
         if (slopes.most <= 0) { return; }

@@ -2,8 +2,7 @@
 //
 // A motor that follows a curve q(s) along the way s has the acceleration q' s.. + q'' s.^2. With the limit A of the
 // motor and bounds on |q'| and |q''| anywhere on the way, a deceleration of (A - |q''| v^2) / |q'| is always left at
-// speed v. Where a motor follows a curve, the path is planned in intervals: A is then the weaker of acceleration and
-// deceleration, and the path finishes the interval in progress before it brakes.
+// speed v. Where a motor follows a curve, A is the weaker of acceleration and deceleration.
 #pragma once
 
 #include <span>
@@ -26,8 +25,6 @@ public:
 
     /// mm/s^2 along the way; 0: at this speed no deceleration is sure.
     double mm_s2(double speed_mm_s) const;
-    /// How far the move goes on at its speed before it brakes.
-    double before_mm() const { return before_mm_; }
     /// The deceleration does not depend on the speed.
     bool is_constant() const;
 
@@ -42,7 +39,6 @@ private:
     Braking(const MachineConfig& machine, const Way& way);
 
     std::vector<Row> rows_;
-    double before_mm_ = 0;
 };
 
 }  // namespace lockstep

@@ -68,15 +68,13 @@ std::expected<void, PlanError> check_overshoot(const Block& block, const Program
 }  // namespace
 
 double overshoot_mm(const MachineConfig& machine, const InputConfig& input, double feed_mm_s, const Braking& braking) {
-    const double at_speed_mm = feed_mm_s * seconds_until_braking(machine, input) + braking.before_mm();
-    return at_speed_mm + feed_mm_s * feed_mm_s / (2 * braking.mm_s2(feed_mm_s));
+    return feed_mm_s * seconds_until_braking(machine, input) + feed_mm_s * feed_mm_s / (2 * braking.mm_s2(feed_mm_s));
 }
 
 /// The positive root of v^2 / 2a + v t = s. If a falls with v, it is less.
 double greatest_probing_feed_mm_s(const MachineConfig& machine, const InputConfig& input, const Braking& braking) {
     const double gained = braking.mm_s2(0) * seconds_until_braking(machine, input);
-    const double way_mm = std::max(0.0, input.max_overshoot_mm - braking.before_mm());
-    double most = std::sqrt(gained * gained + 2 * braking.mm_s2(0) * way_mm) - gained;
+    double most = std::sqrt(gained * gained + 2 * braking.mm_s2(0) * input.max_overshoot_mm) - gained;
     if (braking.is_constant()) { return most; }
     double least = 0;
     for (int halvings = 0; halvings < 60; ++halvings) {

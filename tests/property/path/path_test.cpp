@@ -98,9 +98,18 @@ TEST(PathFrames, AreSlowedDownWhereTheyHaveNoRoomForTheirPieces) {
     expect_within_limits(setup, run);
 }
 
+/// The tail of one frame fits only if an arc under way is passed slower than planned.
+TEST(PathFrames, AreSlowedDownAlsoWithinACurveUnderWay) {
+    const RandomCase c = random_case(kFirstWithArcs + 137);
+    const PathRun run = run_path(c.setup, c.program);
+    EXPECT_GT(run.slowed, 0);
+    EXPECT_EQ(run.braked, 0);
+    expect_within_limits(c.setup, run);
+}
+
 /// The frames of this case are so short that slowing down comes too late in a few of them.
 TEST(PathFrames, GoAlongTheTailBeforeWhereNothingElseKeepsTheLimits) {
-    RandomCase c = random_case(22);
+    RandomCase c = random_case(46);
     c.setup.frame_ticks = Ticks{5'000};
     const PathRun run = run_path(c.setup, c.program);
     EXPECT_GT(run.braked, 0);

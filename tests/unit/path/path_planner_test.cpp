@@ -101,6 +101,22 @@ TEST(PathPlanner, GoesFromALineIntoAnArcAndOn) {
     EXPECT_LT(run.seconds(), (10 + 5 * 3.1416 + 20) / 100 + 0.1) << "it slows down where the arc begins";
 }
 
+/// At 10 mm/min an interval of a curve takes 1.5 s.
+TEST(PathPlanner, BrakesAtOnceOnASlowArc) {
+    constexpr double kFeed_mm_s = 10.0 / 60;
+    const PathSetup setup = setup_of(mill());
+    PathPlanner planner(setup);
+    planner.begin(std::vector<Position>(3));
+    planner.arc({{.centre_first_mm = 1, .centre_second_mm = 0}, {2, 0, 0}}, {.feed_mm_per_tick = kFeed_mm_s * 1e-6}, 1);
+    const PathRun run = finish(planner);
+    expect_within_limits(setup, run);
+    EXPECT_GT(run.frames.size(), 50U);
+    const double braking_ticks = 1e6 * kFeed_mm_s / TestAxis{}.deceleration;
+    for (const PathFrame& frame : run.frames) {
+        EXPECT_LE(static_cast<double>(total_ticks(frame.axes[0].tail).value), std::ceil(1.5 * braking_ticks));
+    }
+}
+
 TEST(PathPlanner, BeginsAnewFromWhereItRests) {
     const PathSetup setup = setup_of(mill());
     PathPlanner planner(setup);
