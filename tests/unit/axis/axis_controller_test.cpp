@@ -228,9 +228,9 @@ TEST_F(LostStepsOfAnAxis, AreNotMadeUpInAFault) {
     EXPECT_EQ(state.corrected_steps, 0U);
 }
 
-class AssumedPlace : public ControllerRig {};
+class AxisAtAnAssumedPlace : public ControllerRig {};
 
-TEST_F(AssumedPlace, IsNoHomeUntilItIsTakenForTrue) {
+TEST_F(AxisAtAnAssumedPlace, IsNoHomeUntilItIsTakenForTrue) {
     owned(10, 20);
     command(AxisCommandKind::TakePlace, 1234);
     EXPECT_TRUE(has_notice(loop(slot + 1), AxisNotice::Kind::CommandRefused, FaultCode::NotHomed)) << "none is assumed";
@@ -248,7 +248,7 @@ TEST_F(AssumedPlace, IsNoHomeUntilItIsTakenForTrue) {
     EXPECT_EQ(state.phase, AxisPhase::Standby);
 }
 
-TEST_F(AssumedPlace, KeepsTheStepsLostSinceItWasAssumed) {
+TEST_F(AxisAtAnAssumedPlace, KeepsTheStepsLostSinceItWasAssumed) {
     device.encoder_count = 100;  // lost before
     owned(10, 20);
     command(AxisCommandKind::Assume, 1234);
@@ -261,7 +261,7 @@ TEST_F(AssumedPlace, KeepsTheStepsLostSinceItWasAssumed) {
     EXPECT_EQ(state.following_error_steps, -2);
 }
 
-TEST_F(AssumedPlace, IsLostWithMoreLostSteps) {
+TEST_F(AxisAtAnAssumedPlace, IsLostWithMoreLostSteps) {
     owned(10, 20);
     command(AxisCommandKind::Assume, 1234);
     loop(slot + 1);
@@ -274,7 +274,7 @@ TEST_F(AssumedPlace, IsLostWithMoreLostSteps) {
     EXPECT_TRUE(has_notice(loop(slot + 1), AxisNotice::Kind::CommandRefused, FaultCode::NotHomed));
 }
 
-TEST_F(AssumedPlace, IsLostWithAFault) {
+TEST_F(AxisAtAnAssumedPlace, IsLostWithAFault) {
     owned(10, 20);
     command(AxisCommandKind::Assume, 1234);
     loop(slot + 1);
