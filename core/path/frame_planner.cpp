@@ -85,6 +85,15 @@ FrameCursor cursor_at(const TimedPath& path, const SpeedWindow& window, Ticks t,
     return cursor;
 }
 
+/// An interval under way may be passed slower than planned from here on.
+void begin_anew(FrameCursor& at, SpeedWindow& window) {
+    if (!at.w1) { return; }
+    at.begin = 0;
+    at.w0 = at.w;
+    at.w1.reset();
+    window.cut(at.interval, at.u, at.w);
+}
+
 /// Traces the tail from the cursor on, as slowly as possible. An interval under way is left at once, because the bounds
 /// of an interval hold for any part of it. The remainder keeps them at constant speed, and as planned, so also at the
 /// least speed that they allow at its end. This is at most the planned one, so the path behind can be followed. Only
@@ -309,7 +318,7 @@ void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt
     const double from = failure.is_full ? 0 : at - static_cast<double>(kSlowTicks << std::min(attempt, 8));
     const double to = failure.is_full ? as_double(ticks) : at;
     if (!has_made_) { start_slower(slower); }
-    begin_anew();
+    begin_anew(at_, window_);
     const Ticks enough = failure.is_crowded ? setup_.frame_ticks : Ticks{};
     double least = at_.w0;
     std::size_t last = at_.interval;
@@ -334,15 +343,6 @@ void FramePlanner::start_slower(double slower) {
     window_.lower(at_.interval, slower * at_.w0);
     window_.update(at_.interval, at_.interval);
     at_.w0 = window_.interval(at_.interval).reach;
-}
-
-/// The interval under way may be passed slower than planned from here on.
-void FramePlanner::begin_anew() {
-    if (!at_.w1) { return; }
-    at_.begin = 0;
-    at_.w0 = at_.w;
-    at_.w1.reset();
-    window_.cut(at_.interval, at_.u, at_.w);
 }
 
 /// The interval under way is finished as planned.

@@ -100,7 +100,6 @@ private:
     bool fit_tail(PathFrame& frame, const FrameCursor& from);
     void slow_down(const FitFailure& failure, Ticks ticks, int attempt);
     void start_slower(double slower);
-    void begin_anew();
     void brake();
     PathPlace place_of_rest(const PathFrame& frame, const FrameCursor& behind) const;
     void take(const FrameCursor& next);
