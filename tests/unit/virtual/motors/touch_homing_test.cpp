@@ -1,5 +1,6 @@
 // Axes whose switches cannot end the pulses of their motors home by moves that end at a touch.
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "tests/unit/virtual/motors/motor_machines.hpp"
@@ -65,10 +66,18 @@ protected:
     }
 };
 
-class HomingInNoise : public HomingByTouch {
+class FreeHoming : public HomingByTouch {
 public:
-    explicit HomingInNoise(const VirtualOptions& options) : HomingByTouch(options) {}
+    explicit FreeHoming(const VirtualOptions& options) : HomingByTouch(options) {}
     void TestBody() override {}
+    double most_off_steps() const {
+        double most = 0;
+        for (std::size_t m = 0; m < vm.axis_states().size(); ++m) {
+            const double slide = vm.device(m).plant().position_mm() * motor_steps_per_mm(vm.machine(), MotorIndex{m});
+            most = std::max(most, std::abs(static_cast<double>(counts()[m]) - slide));
+        }
+        return most;
+    }
     /// Returns whether the machine says that all axes are homed.
     bool homes() {
         const auto over = [this] {
@@ -176,6 +185,16 @@ TEST_F(HomingByTouch, NoticesStepsThatAreLostBehindATouch) {
     expect_homed();
 }
 
+/// The motors have 16 times coarser steps than the axes. What their whole steps are off does not add up over the moves.
+TEST(HomingByTouchFromAnywhere, IsExactToAStepOfEachMotor) {
+    for (int k = 0; k < 6; ++k) {
+        SCOPED_TRACE(k);
+        FreeHoming machine({.machine = MachineSetup{belts_from(40 + 0.0637 * k, 50 - 0.0491 * k)}});
+        EXPECT_TRUE(machine.homes());
+        EXPECT_LE(machine.most_off_steps(), 1.51);
+    }
+}
+
 /// A damaged state of a motor must not move the zero, wherever in the homing it comes.
 TEST(HomingByTouchWithDamagedMessages, NeverTakesAWrongPlace) {
     std::size_t homed = 0;
@@ -183,7 +202,7 @@ TEST(HomingByTouchWithDamagedMessages, NeverTakesAWrongPlace) {
         VirtualOptions options{.machine = MachineSetup{belts_from(30, 40)}, .seed = seed};
         options.network.corrupted = 0.005;
         SCOPED_TRACE(seed);
-        HomingInNoise machine(options);
+        FreeHoming machine(options);
         homed += machine.homes() ? 1 : 0;
     }
     EXPECT_GT(homed, 5u);
