@@ -48,7 +48,7 @@ void BoardBridge::watch_answers(Time now) {
         lack_.clear();
     }
     const bool answers = answered_ != 0 && silent_ <= patience_;
-    if (!answers && link_->is_open()) { lack_ = link_->lack(); }
+    if (!answers && (link_->is_open() || lack_.empty())) { lack_ = link_->lack(); }
     if (answers == answers_) { return; }
     answers_ = answers;
     link_->show(answers);

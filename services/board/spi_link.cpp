@@ -67,7 +67,7 @@ bool SpiLink::exchange(Motor& motor) {
     const Time now = monotonic_now();
     if (now < motor.due) { return true; }
     const bool answers = motor.motor.look(*chip_);
-    motor.due = now + (answers ? Time{kLookPeriod} : Time{kAbsentPeriod});
+    motor.due = now + (motor.motor.is_connected() ? Time{kLookPeriod} : Time{kAbsentPeriod});
     if (!answers) { return false; }
     fault_ = spi::Fault::None;
     ++answers_;

@@ -15,8 +15,12 @@ namespace {
 constexpr std::size_t kWord = sizeof(std::uint64_t);
 constexpr std::size_t kConstants = kPinTicks / kWord + 1;
 constexpr std::size_t kShown = (kAnalogUpper - kSequence) / kWord + 1;
-constexpr std::size_t kTables = 64;  // words of the host from kAnalogTable on, for which the chip has memory
-static_assert(kAnalogTable + kTables * kWord == kInputTable + 32 * kInputTableEntryBytes);
+/// The words of the host but for the rings: where they begin, and how many there are. The chip has memory for all words
+/// of the two tables.
+constexpr std::array kHostWords{std::pair{kRunRequest, (kDirectOutputs - kRunRequest) / kWord + 1},
+                                std::pair{kSetupRequest, (kCompareTicks - kSetupRequest) / kWord + 1},
+                                std::pair{kAnalogTable, std::size_t{64}}};
+static_assert(kAnalogTable + 64 * kWord == kInputTable + 32 * kInputTableEntryBytes);
 constexpr int kMostShows = 20;    // until SEQUENCE changes
 constexpr int kMostMessages = 8;  // in one call
 
@@ -42,11 +46,7 @@ bool ChipMotor::connect(ChipSpi& chip) {
     if (word(kMagic) != kMagicValue || word(kVersion) != kVersionValue || word(kMapChecksum) != kMapChecksumValue) {
         return show_foreign(*constants);
     }
-    const auto before = chip.read(number_, kSequence, 1);
-    if (!before) { return false; }
-    for (auto shown = before; *shown == *before;) {
-        if (!chip.show(number_) || !(shown = chip.read(number_, kSequence, 1))) { return false; }
-    }
+    if (!is_shown(chip)) { return false; }
     const auto session = chip.read(number_, kSessionWord, 1);
     if (!session) { return false; }
     if (session->front() == 0 && !begin_after_power_up(chip)) { return false; }
@@ -63,6 +63,17 @@ bool ChipMotor::connect(ChipSpi& chip) {
     return true;
 }
 
+/// Returns false if the chip does not obey.
+bool ChipMotor::is_shown(ChipSpi& chip) {
+    const auto before = chip.read(number_, kSequence, 1);
+    for (int shows = kMostShows; before && shows > 0; --shows) {
+        if (!chip.show(number_)) { return false; }
+        const auto shown = chip.read(number_, kSequence, 1);
+        if (!shown || *shown != *before) { return shown.has_value(); }
+    }
+    return false;
+}
+
 /// Only the words that tell what it is have a meaning.
 bool ChipMotor::show_foreign(std::span<const std::uint64_t> constants) {
     take(kMagic, constants.first(kTickNs / kWord + 1));
@@ -71,18 +82,18 @@ bool ChipMotor::show_foreign(std::span<const std::uint64_t> constants) {
     return true;
 }
 
-/// The chip's memory is not 0 then, but for the host's words. Its session comes last.
+/// The chip's memory is not 0 then, and its host's words may be those that were still on their way. Its session comes
+/// last.
 bool ChipMotor::begin_after_power_up(ChipSpi& chip) {
     orders_.begin();
     pending_.clear();
     captures_.taken = events_.taken = capture_tail_ = armed_ = 0;
-    const std::vector<std::uint64_t> zeros(kTables);
     const std::array drawn{draw_()};
     session_ = 0;
-    if (!chip.write(number_, kAnalogTable, zeros) || !chip.write(number_, kPowerUp, drawn) ||
-        !chip.write(number_, kSessionWord, drawn)) {
-        return false;
+    for (const auto& [first, words] : kHostWords) {
+        if (!chip.write(number_, first, std::vector<std::uint64_t>(words))) { return false; }
     }
+    if (!chip.write(number_, kPowerUp, drawn) || !chip.write(number_, kSessionWord, drawn)) { return false; }
     session_ = drawn[0];
     return true;
 }
@@ -91,10 +102,8 @@ bool ChipMotor::begin_after_power_up(ChipSpi& chip) {
 bool ChipMotor::take_over(ChipSpi& chip) {
     orders_.begin();
     pending_.clear();
-    for (const auto& [first, end] : {std::pair{kRunRequest, kDirectOutputs + kWord},
-                                     {kSetupRequest, kCompareTicks + kWord},
-                                     {kAnalogTable, kAnalogTable + kTables * kWord}}) {
-        const auto words = chip.read(number_, first, (end - first) / kWord);
+    for (const auto& [first, count] : kHostWords) {
+        const auto words = chip.read(number_, first, count);
         if (!words) { return false; }
         take(first, *words);
         if (first != kRunRequest) { continue; }

@@ -56,6 +56,7 @@ private:
     };
 
     bool connect(ChipSpi& chip);
+    bool is_shown(ChipSpi& chip);
     bool begin_after_power_up(ChipSpi& chip);
     bool take_over(ChipSpi& chip);
     bool look_at_words(ChipSpi& chip);

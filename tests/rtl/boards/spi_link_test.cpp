@@ -16,7 +16,7 @@ namespace {
 
 using namespace registers;
 
-enum class Line : std::uint8_t { Good, Bad, Low, High, Noise, OtherMap };
+enum class Line : std::uint8_t { Good, Bad, Low, High, Noise, OtherMap, NoShow };
 
 constexpr std::uint64_t kOtherChecksum = 0x1234'5678'9ABC'DEF0;
 
@@ -30,6 +30,7 @@ public:
                 case Line::Bad: pass_badly(one); break;
                 case Line::Low: one.assign(one.size(), 0x00); break;
                 case Line::High: one.assign(one.size(), 0xFF); break;
+                case Line::NoShow: pass(one, 0, one[0] >> 6 == 3 ? 0 : one.size() * 8); break;
                 case Line::OtherMap: pass_other_map(one); break;
                 case Line::Noise: one.assign(one.size(), 0x3C); break;
             }
@@ -186,6 +187,17 @@ TEST_F(SpiLink, SaysWhatIsWrongWithALineAndGoesOnWhenItIsGoodAgain) {
     EXPECT_EQ(window.load(kPowerUp), drawn_) << "the chip was not powered up";
 }
 
+TEST_F(SpiLink, GivesUpAChipThatDoesNotShowItsWords) {
+    RegisterWindow window = RegisterWindow::in_process();
+    spi::ChipMotor motor = this->motor(3, window);
+    wires_.become(Line::NoShow);
+    EXPECT_FALSE(motor.look(chip_)) << "a new chip";
+    wires_.become(Line::Good);
+    ASSERT_TRUE(motor.look(chip_));
+    wires_.become(Line::NoShow);
+    EXPECT_FALSE(motor.look(chip_)) << "its words are those of the look before";
+}
+
 TEST_F(SpiLink, BeginsAnewAfterAPowerUp) {
     RegisterWindow window = RegisterWindow::in_process();
     spi::ChipMotor motor = this->motor(0, window);
@@ -196,9 +208,14 @@ TEST_F(SpiLink, BeginsAnewAfterAPowerUp) {
     ASSERT_TRUE(motor.look(chip_));
     const std::uint64_t before = window.load(kPowerUp);
     wires_.power_up();
+    window.store(kTrigger, 5);
+    ASSERT_TRUE(motor.obey(chip_)) << "the host does not know yet";
     ASSERT_TRUE(motor.look(chip_));
     EXPECT_NE(window.load(kPowerUp), before);
-    EXPECT_EQ(window.load(kBeat), 0) << "both sides' words are reset";
+    for (const std::size_t word : {kBeat, kTrigger}) {
+        EXPECT_EQ(window.load(word), 0) << "both sides' words are reset";
+        EXPECT_EQ(chip_.read(0, word, 1), std::vector<std::uint64_t>{0});
+    }
     EXPECT_EQ(chip_.read(0, kAnalogTable, 64), std::vector<std::uint64_t>(64)) << "the SRAM had other values";
 }
 
