@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kLookPeriod = 2ms;
-constexpr auto kAbsentPeriod = 100ms;  // of a motor that the chip may not have
+constexpr auto kAbsentPeriod = 1s;  // of a motor that the chip may not have
 constexpr auto kWait = 200us;
 /// At this speed the chip is asked which speed it bears.
 constexpr std::uint32_t kFirstSpeed_hz = 500'000;
