@@ -1,5 +1,5 @@
-// Where the motors of an axis are assumed to be while it homes by touch: for each move the axis is assumed elsewhere, and
-// at the end it is where it truly is.
+// Where the motors of an axis are assumed to be while it homes by touch: for each move the axis is assumed elsewhere,
+// and at the end it is where it truly is.
 //
 // Motors that move other axes too rest on whole steps, so an assumption places the other axes up to half a step of the
 // motor away. While the axis homes this does not matter, if they stay within their travel. At the end all that was
