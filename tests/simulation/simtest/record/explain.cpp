@@ -72,6 +72,8 @@ constexpr std::array kExplanations{
     Explanation{Cause::Push, FaultCode::HomeSwitchStuck},
     Explanation{Cause::Push, FaultCode::HomeSwitchUnsteady},
     Explanation{Cause::Push, FaultCode::FollowingError},
+    // The simulated motor keeps the speed at which its pulses ended, and slips when it moves again too soon.
+    Explanation{Cause::EmergencyStop, FaultCode::FollowingError},
     // It was pushed back twice as far as the motor had gone.
     Explanation{Cause::Push, FaultCode::EncoderReversed},
     Explanation{Cause::Push, FaultCode::LimitHit},
