@@ -57,9 +57,9 @@ void rest_boards(PathFrame& frame, std::size_t motors) {
     }
 }
 
-/// A straight interval begins anew in each frame. A curved one is passed as planned: the square of the speed is linear
-/// from end to end. A rest is finished too, but the speed behind it is still free. When braking, any interval begins
-/// anew; then the interval numbers of the tail may be those before a change of the overrides.
+/// A straight interval starts again in each frame. A curved one is passed as planned: the square of the speed is linear
+/// from end to end. A rest is finished too, but the speed behind it is still free. When braking, any interval starts
+/// again; then the interval numbers of the tail may be those before a change of the overrides.
 FrameCursor cursor_at(const TimedPath& path, const SpeedWindow& window, Ticks t, bool is_braking) {
     const double at = as_double(t);
     const auto& passages = path.passages();
@@ -86,7 +86,7 @@ FrameCursor cursor_at(const TimedPath& path, const SpeedWindow& window, Ticks t,
 }
 
 /// An interval under way may be passed slower than planned from here on.
-void begin_anew(FrameCursor& at, SpeedWindow& window) {
+void restart_here(FrameCursor& at, SpeedWindow& window) {
     if (!at.w1) { return; }
     at.begin = 0;
     at.w0 = at.w;
@@ -318,7 +318,7 @@ void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt
     const double from = failure.is_full ? 0 : at - static_cast<double>(kSlowTicks << std::min(attempt, 8));
     const double to = failure.is_full ? as_double(ticks) : at;
     if (!has_made_) { start_slower(slower); }
-    begin_anew(at_, window_);
+    restart_here(at_, window_);
     const Ticks enough = failure.is_crowded ? setup_.frame_ticks : Ticks{};
     double least = at_.w0;
     std::size_t last = at_.interval;

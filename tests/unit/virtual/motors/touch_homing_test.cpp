@@ -185,7 +185,7 @@ TEST_F(HomingByTouch, NoticesStepsThatAreLostBehindATouch) {
     expect_homed();
 }
 
-/// The motors have 16 times coarser steps than the axes. What their whole steps are off does not add up over the moves.
+/// A step of a motor is as long as 16 steps of an axis. The errors of this rounding do not add up over the moves.
 TEST(HomingByTouchFromAnywhere, IsExactToAStepOfEachMotor) {
     for (int k = 0; k < 6; ++k) {
         SCOPED_TRACE(k);
