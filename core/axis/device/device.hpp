@@ -43,6 +43,9 @@ struct DeviceStatus {
     bool host_silent = false;         // the device received no beat for the time of its setup
     bool stopped_by_input = false;    // this run ended, or did not begin, because a stop input is closed
     bool bad_output = false;  // changes of outputs in this run were malformed, and none of their frame's was made
+
+    /// Encoder minus count, in steps.
+    std::int64_t encoder_ahead() const { return encoder_count - position.count(); }
 };
 
 /// A change of an input. The input follows its pin later, by its debounce.

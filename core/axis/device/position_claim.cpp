@@ -23,7 +23,7 @@ FaultCode doubt_of(const KeptPosition& kept, const PositionScale& scale, const D
     if (kept.power_up != device.power_up) { return FaultCode::DevicePoweredUp; }
     const bool rests = device.finished && !device.moving && device.run_asked == device.run;
     if (!rests || kept.run != device.run || kept.position != device.position) { return FaultCode::DeviceHasRun; }
-    const std::int64_t pushed = device.encoder_count - device.position.count() - kept.encoder_zero;
+    const std::int64_t pushed = device.encoder_ahead() - kept.encoder_zero;
     return std::abs(pushed) > most_pushed ? FaultCode::PositionPushed : FaultCode::None;
 }
 

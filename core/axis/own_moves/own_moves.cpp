@@ -218,7 +218,7 @@ void OwnMoves::end(AxisLoop& loop) {
                                    .home_closed = device.home,
                                    .count = device.position.count(),
                                    .trigger_count = device.trigger_count,
-                                   .encoder_ahead = device.encoder_count - device.position.count()}),
+                                   .encoder_ahead = device.encoder_ahead()}),
                      loop);
 }
 

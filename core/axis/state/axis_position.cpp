@@ -6,11 +6,6 @@
 #include "core/kinematics/motors.hpp"
 
 namespace lockstep {
-namespace {
-
-std::int64_t encoder_ahead(const DeviceStatus& device) { return device.encoder_count - device.position.count(); }
-
-}  // namespace
 
 AxisPosition::AxisPosition(const MachineConfig& machine, MotorIndex motor, KeptOrNot kept)
     : scale_(scale_of(machine, motor)), kept_(std::move(kept)), play_(motors_of(machine)[motor].backlash) {
@@ -43,14 +38,14 @@ void AxisPosition::begin_homing() {
 
 void AxisPosition::assume_zero(std::int64_t zero_count, const DeviceStatus& device) {
     zero_count_ = zero_count;
-    encoder_zero_ = encoder_ahead(device);
+    encoder_zero_ = device.encoder_ahead();
     is_assumed_ = true;
 }
 
 /// Steps that the motor lost before the homing no longer count.
 void AxisPosition::set_zero(std::int64_t zero_count, const DeviceStatus& device) {
     zero_count_ = zero_count;
-    if (!is_assumed_) { encoder_zero_ = encoder_ahead(device); }
+    if (!is_assumed_) { encoder_zero_ = device.encoder_ahead(); }
     corrected_ = 0;
     kept_run_.reset();
     play_.begin(0, device.position.count());

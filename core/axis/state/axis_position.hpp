@@ -49,7 +49,7 @@ public:
     Position in_device(Position machine) const { return machine + Displacement::steps(zero_count_); }
     /// Encoder minus count since the homing or the assumption, in steps. A board has no encoder.
     std::int64_t following_error(const DeviceStatus& device) const {
-        return is_board_ ? 0 : device.encoder_count - device.position.count() - encoder_zero_;
+        return is_board_ ? 0 : device.encoder_ahead() - encoder_zero_;
     }
     /// So many steps differ that they count as lost.
     bool has_lost_steps(const DeviceStatus& device) const {

@@ -21,8 +21,8 @@ AxisCounts near_travel(AxisCounts at, const LoopView& loop) {
 
 }  // namespace
 
-AssumedPlace::AssumedPlace(AxisIndex axis, const LoopView& loop) : axis_(axis) {
-    for (std::size_t m = 0; m < loop.axes.size(); ++m) { given_.append(0); }
+AssumedPlace::AssumedPlace(AxisIndex axis, std::size_t motors) : axis_(axis) {
+    while (given_.size() < motors) { given_.append(0); }
 }
 
 MotorCounts AssumedPlace::for_move(std::int64_t place, const LoopView& loop) {

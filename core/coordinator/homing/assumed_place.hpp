@@ -6,6 +6,7 @@
 // assumed is taken back at once, so these errors do not add up.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/coordinator/state/coordinator_loop.hpp"
@@ -14,7 +15,8 @@ namespace lockstep {
 
 class AssumedPlace {
 public:
-    AssumedPlace(AxisIndex axis, const LoopView& loop);
+    /// motors: of the machine.
+    AssumedPlace(AxisIndex axis, std::size_t motors);
 
     /// Returns where the motors are assumed to be for a move of the axis from `place`. Only motors of the axis change.
     MotorCounts for_move(std::int64_t place, const LoopView& loop);

@@ -53,7 +53,8 @@ TouchHoming::TouchHoming(AxisIndex axis, const MachineConfig& machine)
       config_(machine.axes[axis]),
       input_(home_input_of(config_, machine)),
       switch_(switch_at(machine.inputs[input_], machine)),
-      homing_(as_motor(config_, machine.inputs[input_].max_overshoot_mm)) {}
+      homing_(as_motor(config_, machine.inputs[input_].max_overshoot_mm)),
+      assumed_(axis, motor_count(machine)) {}
 
 bool TouchHoming::is_closed(const LoopView& loop) const {
     return switch_.is_closed(loop.axes.state(switch_.motor)->inputs);
@@ -69,7 +70,6 @@ TouchHoming::Next TouchHoming::next(const LoopView& loop) {
     if (is_placed_) { return Next::Move; }
     if (left_ == 0) {
         if (!is_switch_known(loop)) { return Next::Wait; }
-        if (!assumed_) { assumed_.emplace(axis_, loop); }
         end_.home_closed = is_closed(loop);
         bool goes_on =
             take(std::exchange(has_begun_, true) ? homing_.next(end_) : homing_.begin(end_.home_closed, at_));
@@ -79,12 +79,12 @@ TouchHoming::Next TouchHoming::next(const LoopView& loop) {
         }
         if (fault_ != FaultCode::None) { return Next::Fail; }
         if (!goes_on) {
-            places_ = assumed_->truth(at_ - zero_, loop);
+            places_ = assumed_.truth(at_ - zero_, loop);
             return Next::End;
         }
     }
     is_placed_ = true;
-    places_ = assumed_->for_move(end_of_travel(left_ < 0), loop);
+    places_ = assumed_.for_move(end_of_travel(left_ < 0), loop);
     return Next::Assume;
 }
 

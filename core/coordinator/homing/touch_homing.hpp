@@ -63,9 +63,9 @@ private:
     bool is_placed_ = false;         // for its next part
     std::int64_t from_ = 0;          // where this part begins, and its target, as assumed
     std::int64_t to_ = 0;
-    std::int64_t at_ = 0;                  // from where homing began
-    std::int64_t zero_ = 0;                // the same, at the axis's true zero, once it is known
-    std::optional<AssumedPlace> assumed_;  // once homing has begun
+    std::int64_t at_ = 0;    // from where homing began
+    std::int64_t zero_ = 0;  // the same, at the axis's true zero, once it is known
+    AssumedPlace assumed_;
     MotorCounts places_;
     LocalEnd end_;  // of the last move
     std::optional<Slot> rested_;

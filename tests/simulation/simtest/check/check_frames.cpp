@@ -177,9 +177,8 @@ private:
         const auto is_away = [](const VirtualFault& fault) {
             return fault.kind == Kind::Crash || fault.kind == Kind::Cut;
         };
-        const bool is_by_input = std::ranges::any_of(
-            recording_.emergencies, [](const Emergency& emergency) { return emergency.by_input.has_value(); });
-        const bool is_stopped = is_by_input || any([](const VirtualFault& fault) { return fault.is_of_plant(); });
+        const bool is_stopped =
+            recording_.was_stop_pressed() || any([](const VirtualFault& fault) { return fault.is_of_plant(); });
         const bool knows_no_veto = any(is_away) && is_stopped;
         const Slot slots = stalls || knows_no_veto ? t.lease_slots() : rules::kLastCheckSlots + 1;
         return static_cast<FrameNumber>(1 + slots / t.frame_slots);

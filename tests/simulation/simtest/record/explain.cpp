@@ -124,8 +124,7 @@ Cause cause_of(const VirtualFault& fault, const MachineConfig& machine) {
 std::vector<Cause> causes_in(const Recording& recording) {
     std::vector<Cause> causes;
     if (!recording.emergencies.empty()) { causes.push_back(Cause::EmergencyStop); }
-    const auto is_by_input = [](const Emergency& emergency) { return emergency.by_input.has_value(); };
-    if (std::ranges::any_of(recording.emergencies, is_by_input)) { causes.push_back(Cause::StopInput); }
+    if (recording.was_stop_pressed()) { causes.push_back(Cause::StopInput); }
     if (recording.was_moved_by_hand) { causes.push_back(Cause::Hand); }
     if (recording.network.lost > 0) { causes.push_back(Cause::Loss); }
     if (recording.network.corrupted > 0) { causes.push_back(Cause::Corruption); }

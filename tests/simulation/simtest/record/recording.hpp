@@ -1,6 +1,7 @@
 // Everything that a run did, observed from outside: steps, tracks, frames, orders.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -188,6 +189,10 @@ struct Recording {
     Tick began;
     Tick ended;
 
+    /// An input that is an emergency stop was pressed.
+    bool was_stop_pressed() const {
+        return std::ranges::any_of(emergencies, [](const Emergency& e) { return e.by_input.has_value(); });
+    }
     bool lossy() const { return network.lost > 0 || network.corrupted > 0; }
     std::span<const StepEdge> steps_of(const JobRecord& job, std::size_t axis) const {
         return std::span(motors[axis].steps).subspan(job.first_step[axis], job.end_step[axis] - job.first_step[axis]);

@@ -59,7 +59,7 @@ TEST_F(AssumedPlaceOfBelts, LosesNoStepHoweverOftenItChanges) {
     for (int homing = 0; homing < 100; ++homing) {
         const MotorCounts began = roster_.counts();
         slides_ = {0, 0};
-        AssumedPlace assumed(AxisIndex{0}, loop());
+        AssumedPlace assumed(AxisIndex{0}, 2);
         for (int moves = 0; moves < 12; ++moves) {
             put(assumed.for_move(place(random), loop()));
             move_x(way(random));
@@ -74,7 +74,7 @@ TEST_F(AssumedPlaceOfBelts, LosesNoStepHoweverOftenItChanges) {
 
 TEST_F(AssumedPlaceOfBelts, LeavesTheOtherAxisInItsTravel) {
     put(kinematics_.motors_at({80'000, -8}));  // half a step of the motors
-    AssumedPlace assumed(AxisIndex{0}, loop());
+    AssumedPlace assumed(AxisIndex{0}, 2);
     for (std::int64_t place = 0; place < 160'000; place += 1'111) {
         put(assumed.for_move(place, loop()));
         EXPECT_GE(loop().counts()[1], -kinematics_.rest_steps(AxisIndex{1})) << place;
@@ -85,7 +85,7 @@ TEST_F(AssumedPlaceOfBelts, LeavesTheOtherAxisInItsTravel) {
 
 TEST_F(AssumedPlaceOfBelts, ShowsWhereAnAxisIsFarOutsideItsTravel) {
     put(kinematics_.motors_at({80'000, -3'200}));
-    AssumedPlace assumed(AxisIndex{0}, loop());
+    AssumedPlace assumed(AxisIndex{0}, 2);
     put(assumed.for_move(0, loop()));
     EXPECT_NEAR(static_cast<double>(loop().counts()[1]), -3'200, 16);
 }

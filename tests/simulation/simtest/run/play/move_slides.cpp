@@ -9,8 +9,8 @@
 namespace lockstep::simtest {
 namespace {
 
-std::int64_t place_of(const Bench& bench, MotorIndex m, VirtualMachine& vm) {
-    return std::llround(vm.device(m).plant().position_mm() * bench.kinematics().motors()[m].steps_per_mm);
+std::int64_t place_of(Bench& bench, MotorIndex m) {
+    return std::llround(bench.vm().device(m).plant().position_mm() * bench.kinematics().motors()[m].steps_per_mm);
 }
 
 /// Axes that home together with others by touch are not put to their parks, if they have no switch. A distance that the
@@ -37,7 +37,7 @@ bool put_to_park(Bench& bench) {
 bool put_into_travel(Bench& bench) {
     MotorCounts motors;
     for (const MotorIndex m : motor_indices(bench.kinematics().motors().size())) {
-        motors.steps.append(place_of(bench, m, bench.vm()));
+        motors.steps.append(place_of(bench, m));
     }
     AxisCounts axes = bench.kinematics().axes_at(motors);
     bool moves = false;
