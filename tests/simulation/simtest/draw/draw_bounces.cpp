@@ -10,7 +10,7 @@ namespace lockstep::simtest {
 namespace {
 
 /// An axis that homes by the touch of this input goes on while it bounces, and then still stops in front of the limit
-/// switch. Bounces are no longer than for half of the room.
+/// switch. Bounces are no longer than for half of the room, and make a slow touch differ by half of what touches may.
 void leave_room(MachineConfig& machine, InputConfig& input) {
     for (AxisConfig& axis : machine.axes) {
         if (axis.homing.way != HomingWay::ByTouch || axis.homing.input != input.name) { continue; }
@@ -22,6 +22,10 @@ void leave_room(MachineConfig& machine, InputConfig& input) {
         const double most = 0.99 * greatest_probing_feed_mm_s(machine, input, braking);
         homing.search_velocity_mm_s = std::min(homing.search_velocity_mm_s, most);
         homing.latch_velocity_mm_s = std::min(homing.latch_velocity_mm_s, homing.search_velocity_mm_s);
+        if (input.simulated_bounce_ms > 0) {
+            const double slow = homing.touch_tolerance_mm / 2 / bounce_seconds(input);
+            homing.latch_velocity_mm_s = std::min(homing.latch_velocity_mm_s, slow);
+        }
     }
 }
 

@@ -322,6 +322,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (kind.probes) { give_probes(seed, scenario); }
     if (kind.probes && kind.close_probes) { bring_probe_close(seed, scenario); }
     if (kind.bounces) { give_bounces(seed, scenario); }
+    put_limits_behind_errors(scenario.machine);
     if (kind.small_rings) { give_rings(seed, scenario); }
     if (kind.jogs) { give_jogs(seed, with_plant(faults, asked), scenario); }
     if (kind.encoders && !kind.backlash) { give_slips(seed, scenario); }

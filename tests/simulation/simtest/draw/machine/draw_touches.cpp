@@ -8,6 +8,7 @@
 #include "core/kinematics/kinematics.hpp"
 #include "core/kinematics/motors.hpp"
 #include "tests/simulation/simtest/draw/draw.hpp"
+#include "tests/simulation/simtest/draw/draw_bounces.hpp"
 #include "tests/simulation/simtest/draw/draw_machine.hpp"
 
 namespace lockstep::simtest {
@@ -96,6 +97,16 @@ MachineConfig with_touches(std::uint64_t seed, MachineConfig machine) {
     }
     if (shares_motors(machine) && draw.chance(0.8)) { give_switches_to_first_two(draw, machine); }
     return machine;
+}
+
+void put_limits_behind_errors(MachineConfig& machine) {
+    const double clocks_s =
+        machine.estimates_clocks() ? 2e-6 * static_cast<double>(machine.timing.clock_error_limit_us) : 0;
+    for (AxisConfig& axis : machine.axes) {
+        if (axis.homing.way != HomingWay::ByTouch) { continue; }
+        const auto input = std::ranges::find(machine.inputs, axis.homing.input, &InputConfig::name);
+        axis.plant.travel_margin_mm += axis.homing.latch_velocity_mm_s * (clocks_s + bounce_seconds(*input));
+    }
 }
 
 }  // namespace lockstep::simtest

@@ -12,4 +12,8 @@ namespace lockstep::simtest {
 /// motors of their own.
 MachineConfig with_touches(std::uint64_t seed, MachineConfig machine);
 
+/// The zero of such an axis may be off by the way in the errors of two clocks and while the contact bounces. Its limit
+/// switches are farther behind its travel by that. Call it when the clocks and contacts are drawn.
+void put_limits_behind_errors(MachineConfig& machine);
+
 }  // namespace lockstep::simtest
