@@ -96,7 +96,8 @@ constexpr std::array kExplanations{
     Explanation{Cause::SilentDevice, FaultCode::DeviceFault},
     // Orders that wait for a link reach the device after the start of their frame. It runs the tail then.
     Explanation{Cause::SilentLink, FaultCode::FramesDiffer},
-    // A process that does not receive the coordinator's clock for long is no longer certain of the time.
+    // A process that does not receive the coordinator's clock for long is no longer certain of the time. Delays that
+    // change move its estimate, from three quarters of the limit on.
     Explanation{Cause::OwnClocks, FaultCode::ClockUncertain},
 };
 
@@ -138,7 +139,9 @@ std::vector<Cause> causes_in(const Recording& recording) {
         if (fault.in_loop) { causes.push_back(Cause::Stall); }
     }
     const bool disturbed = recording.lossy() || !recording.faults.empty();
-    if (disturbed && recording.machine.estimates_clocks()) { causes.push_back(Cause::OwnClocks); }
+    const NetworkBehaviour& network = recording.network;
+    const bool is_uneven = network.delay_min < network.delay_max || network.reply_longer > Ticks{};
+    if ((disturbed || is_uneven) && recording.machine.estimates_clocks()) { causes.push_back(Cause::OwnClocks); }
     return causes;
 }
 
