@@ -85,7 +85,7 @@ FrameCursor cursor_at(const TimedPath& path, const SpeedWindow& window, Ticks t,
     return cursor;
 }
 
-/// An interval under way may be passed slower than planned from here on.
+/// An interval under way need not be passed as planned from here on.
 void restart_here(FrameCursor& at, SpeedWindow& window) {
     if (!at.w1) { return; }
     at.begin = 0;
@@ -345,14 +345,15 @@ void FramePlanner::start_slower(double slower) {
     at_.w0 = window_.interval(at_.interval).reach;
 }
 
-/// The interval under way is finished as planned.
 OverrideResult FramePlanner::set_overrides(const Overrides& overrides) {
     if (is_done_) { return OverrideResult::CannotFollow; }
     overridden_ = window_;
-    const OverrideResult result =
-        overridden_.set_overrides(overrides, at_.interval, at_.w1.has_value(), at_.w1.value_or(at_.w0));
+    FrameCursor at = at_;
+    restart_here(at, overridden_);
+    const OverrideResult result = overridden_.set_overrides(overrides, at.interval, at.w0);
     if (result != OverrideResult::Taken) { return result; }
     std::swap(window_, overridden_);
+    at_ = at;
     is_traced_ = false;
     return result;
 }

@@ -88,7 +88,7 @@ public:
     bool has_made() const { return has_made_; }
     /// Starts again after the window was refilled. Only before the first frame.
     void restart() { has_begun_ = is_traced_ = false; }
-    /// Applies new overrides from the next node behind the last frame on. Changes nothing unless it returns Taken.
+    /// Applies new overrides from the end of the last frame on. Changes nothing unless it returns Taken.
     OverrideResult set_overrides(const Overrides& overrides);
     const FrameCounts& counts() const { return counts_; }
 

@@ -42,7 +42,7 @@ public:
     }
     void arc_to_steps(const ArcShape& shape, const PlaceVector& to, const MoveSettings& settings, std::uint32_t block);
 
-    /// Applies new overrides from the next node of the path behind the last frame on. Unless it returns Taken, the
+    /// Applies new overrides from the end of the last frame on. Unless it returns Taken, the
     /// previous ones still hold. If it returns CannotFollow, the axes may be able to follow behind a later frame.
     OverrideResult set_overrides(const Overrides& overrides);
     const Overrides& overrides() const { return overrides_; }

@@ -33,10 +33,10 @@ public:
     /// Ends the path at rest at the end of the last piece.
     void finish();
 
-    /// Applies new overrides from an interval's end if it `is_under_way`, otherwise from its beginning; `w` is the
-    /// squared speed there. Speeds during the hardest braking from there are allowed. A piece in progress gets faster
-    /// only if it can still recover the jumps at its ends. Unless it returns Taken, the window must not be used again.
-    OverrideResult set_overrides(const Overrides& overrides, std::size_t number, bool is_under_way, double w);
+    /// Applies new overrides from an interval's beginning; `w` is the squared speed there. Speeds during the hardest
+    /// braking from there are allowed. A piece in progress gets faster only if it can still recover the jumps at its
+    /// ends. Unless it returns Taken, the window must not be used again.
+    OverrideResult set_overrides(const Overrides& overrides, std::size_t number, double w);
 
 private:
     /// Where the path begins on the first piece of the window.
@@ -49,10 +49,12 @@ private:
     void close_end();
     const Quadratic* shape_at(std::size_t k) const { return k < pieces_.size() ? &pieces_[k].shape : nullptr; }
     bool may_rise(std::size_t piece) const;
-    void turn_piece(std::size_t number, bool is_under_way);
+    void turn_piece(std::size_t number);
     void recut_behind(std::size_t piece);
     OverrideResult allow_braking(std::size_t number, double w);
-    bool split_braking(std::size_t number, double w);
+    void rise_at_once(std::size_t number, double w);
+    bool split_change(std::size_t number, double w);
+    double way_to_top(const Interval& part, double w) const;
 
     BacklashRows backlash_;
     Overrides overrides_;

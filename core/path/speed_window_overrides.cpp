@@ -11,16 +11,17 @@ constexpr double kHair = 1 + 1e-6;
 
 }  // namespace
 
-OverrideResult SpeedWindow::set_overrides(const Overrides& overrides, std::size_t number, bool is_under_way, double w) {
+OverrideResult SpeedWindow::set_overrides(const Overrides& overrides, std::size_t number, double w) {
     const bool was_finished = is_finished_;
     const std::size_t piece = interval(number).piece;
     overrides_ = overrides;
     is_finished_ = false;
-    turn_piece(number, is_under_way);
+    turn_piece(number);
     recut_behind(piece);
     if (was_finished) { close_end(); }
+    rise_at_once(number, w);
     final_ = number + 1;
-    const OverrideResult result = allow_braking(is_under_way ? number + 1 : number, w);
+    const OverrideResult result = allow_braking(number, w);
     if (result != OverrideResult::Taken) { return result; }
     look_ahead();
     if (is_finished_) { final_ = end(); }
@@ -46,11 +47,11 @@ bool SpeedWindow::may_rise(std::size_t piece) const {
 }
 
 /// Applies the overrides to the rest of the piece in which they begin. The joint at its beginning has been passed.
-void SpeedWindow::turn_piece(std::size_t number, bool is_under_way) {
+void SpeedWindow::turn_piece(std::size_t number) {
     const std::size_t piece = interval(number).piece;
     if (interval(number).kind == IntervalKind::Rest) { return; }
     const bool rises = may_rise(piece);
-    for (std::size_t k = is_under_way ? number + 1 : number; k < end() && interval(k).piece == piece; ++k) {
+    for (std::size_t k = number; k < end() && interval(k).piece == piece; ++k) {
         Interval& part = intervals_[k - first_];
         const double top = bounds(part).cap(overrides_);
         part.top = rises ? top : std::min(top, part.top);
@@ -87,7 +88,7 @@ OverrideResult SpeedWindow::allow_braking(std::size_t number, double w) {
         part.may_cruise = false;
         if (is_rest) { return OverrideResult::Taken; }
         const double behind = bounds(part).least_after(w);
-        if (split_braking(k, w)) {
+        if (w > part.top && split_change(k, w)) {
             w = interval(k + 1).cap;
         } else {
             part.top = std::max(part.top, part.kind == IntervalKind::Straight ? behind : w);
@@ -97,11 +98,17 @@ OverrideResult SpeedWindow::allow_braking(std::size_t number, double w) {
     return OverrideResult::Taken;
 }
 
-/// If a straight interval is entered too fast, makes its beginning a separate interval for braking.
-bool SpeedWindow::split_braking(std::size_t number, double w) {
+/// A straight interval accelerates by itself.
+void SpeedWindow::rise_at_once(std::size_t number, double w) {
+    const Interval& part = interval(number);
+    if (part.kind == IntervalKind::Curved && kHair * w < part.top) { (void)split_change(number, w); }
+}
+
+/// Makes the beginning of an interval, in which the speed changes from w to the interval's top as fast as it may, a
+/// separate interval.
+bool SpeedWindow::split_change(std::size_t number, double w) {
     Interval& part = intervals_[number - first_];
-    if (part.kind != IntervalKind::Straight || w <= part.top) { return false; }
-    const double mm = (w - part.top) / (2 * part.deceleration);
+    const double mm = way_to_top(part, w);
     if (mm >= part.length()) { return false; }
     Interval rest = part;
     rest.from = part.from + mm;
@@ -111,6 +118,23 @@ bool SpeedWindow::split_braking(std::size_t number, double w) {
     part.to = rest.from;
     intervals_.insert(number + 1 - first_, rest);
     return true;
+}
+
+/// The shortest beginning of an interval in which the speed can change from w to the interval's top; all of it, if none
+/// is long enough.
+double SpeedWindow::way_to_top(const Interval& part, double w) const {
+    constexpr int kHalvings = 48;
+    Interval begin = part;
+    const IntervalBounds to_here = bounds(begin);
+    double least = 0;
+    double most = part.length();
+    for (int n = 0; n < kHalvings; ++n) {
+        const double mm = least + (most - least) / 2;
+        begin.to = begin.from + mm;
+        const bool is_enough = w > part.top ? to_here.least_after(w) <= part.top : to_here.after(w) >= part.top;
+        (is_enough ? most : least) = mm;
+    }
+    return most;
 }
 
 }  // namespace lockstep

@@ -85,6 +85,33 @@ TEST(PathOverrides, OfRapidMovesChangeTheSpeedThatTheAxesAllow) {
     EXPECT_NEAR(most, 75, 0.1);
 }
 
+/// The mean speed of the frame, mm/s.
+double speed_of(const PathSetup& setup, const PathFrame& frame) {
+    double mm[2] = {};
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (const Piece& piece : frame.axes[i].body) {
+            mm[i] += piece.covered().as_steps() / setup.steps_per_mm[AxisIndex{i}];
+        }
+    }
+    return std::hypot(mm[0], mm[1]) / static_cast<double>(frame.ticks.value) * 1e6;
+}
+
+/// At 0.2 mm/s a frame covers a fifth of an interval of the curve.
+TEST(PathOverrides, OnASlowArcHoldFromTheNextFrame) {
+    const PathSetup setup = setup_of(mill());
+    for (const int percent : {20, 50, 150, 200}) {
+        PathSession session(setup, {{.made = 3, .overrides = Overrides{.feed_percent = percent}}});
+        TestProgram program;
+        program.add({10, 0, 0}, 0.2);
+        program.moves[0].arc = ArcShape{.first = 0, .second = 1, .centre_first_mm = 5, .centre_second_mm = 0};
+        session.run(program, at_any_frame);
+        const PathRun run = only_run(session);
+        expect_within_limits(setup, run);
+        EXPECT_NEAR(speed_of(setup, run.frames[2]), 0.2, 0.001) << percent;
+        EXPECT_NEAR(speed_of(setup, run.frames[4]), 0.002 * percent, 0.001) << percent;
+    }
+}
+
 /// While the machine rests for a dwell the next move is planned anew.
 TEST(PathOverrides, InADwellHoldForTheMoveBehindIt) {
     const PathSetup setup = setup_of(mill());
