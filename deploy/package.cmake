@@ -66,7 +66,7 @@ install(DIRECTORY core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lockstep COMPONEN
 file(GLOB DEVICE_HEADERS CONFIGURE_DEPENDS sim_fpga/*.hpp)
 install(FILES ${DEVICE_HEADERS} ${PROJECT_BINARY_DIR}/sim_fpga/registers.hpp
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lockstep/sim_fpga COMPONENT lockstep-dev)
-install(DIRECTORY sim_fpga/wiring sim_fpga/workpiece DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lockstep/sim_fpga
+install(DIRECTORY sim_fpga/wiring sim_fpga/contacts DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lockstep/sim_fpga
   COMPONENT lockstep-dev FILES_MATCHING PATTERN "*.hpp")
 install(FILES services/axis/device_driver.hpp
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lockstep/services/axis COMPONENT lockstep-dev)

@@ -60,7 +60,9 @@ std::expected<std::unique_ptr<DevicePort>, std::string> simulated_port(const Mac
                                                     static_cast<std::uint64_t>(now.value));
     auto driver = attach_driver(window, machine, motor);
     if (!driver) { return std::unexpected(driver.error()); }
-    if (!machine.workpiece) { return std::make_unique<WindowPort>(std::move(*driver), std::move(device)); }
+    if (!TouchedDevice::is_needed(machine)) {
+        return std::make_unique<WindowPort>(std::move(*driver), std::move(device));
+    }
     auto touched = TouchedDevice::open(machine, domain, motor_named(machine, motor.name).value(), now);
     if (!touched) { return std::unexpected(touched.error()); }
     return std::make_unique<WindowPort>(std::move(*driver), std::move(device), std::move(*touched));

@@ -13,8 +13,8 @@
 #include "core/machine.hpp"
 #include "services/axis/device_driver.hpp"
 #include "services/axis/device_port.hpp"
+#include "sim_fpga/contacts/touched_device.hpp"
 #include "sim_fpga/device.hpp"
-#include "sim_fpga/workpiece/touched_device.hpp"
 
 namespace lockstep {
 
@@ -25,7 +25,7 @@ public:
 
     /// A device that counts the host's clock. `simulated`: the device itself, if it is simulated in this process. It
     /// runs up to the present whenever it is read.
-    /// `touched`: its workpiece, if the machine has one.
+    /// `touched`: what the machine's slides touch, if they touch something.
     explicit WindowPort(DeviceDriver driver, std::unique_ptr<SimulatedDevice> simulated = nullptr,
                         std::optional<TouchedDevice> touched = std::nullopt)
         : driver_(std::move(driver)), simulated_(std::move(simulated)), touched_(std::move(touched)) {}
@@ -60,8 +60,8 @@ std::expected<DeviceDriver, std::string> find_device(RegisterWindow window, cons
 std::expected<DeviceDriver, std::string> attach_driver(RegisterWindow window, const MachineConfig& machine,
                                                        const MotorConfig& motor);
 
-/// The port to a device that is simulated in this process, powered up at `now`. `domain`: of the machine's network, if
-/// it has a workpiece (SharedSlides). Errors: those of attach_driver and TouchedDevice::open.
+/// The port to a device that is simulated in this process, powered up at `now`. `domain`: of the machine's network.
+/// Errors: those of attach_driver and TouchedDevice::open.
 std::expected<std::unique_ptr<DevicePort>, std::string> simulated_port(const MachineConfig& machine,
                                                                        const MotorConfig& motor, Tick now,
                                                                        std::uint32_t domain = 0);

@@ -20,7 +20,7 @@
 #include "services/runtime/log.hpp"
 #include "services/runtime/periodic.hpp"
 #include "services/runtime/service_options.hpp"
-#include "sim_fpga/workpiece/touched_device.hpp"
+#include "sim_fpga/contacts/touched_device.hpp"
 
 namespace lockstep {
 namespace {
@@ -58,7 +58,7 @@ public:
     }
 
     /// Error: that of TouchedDevice::open.
-    std::expected<void, std::string> touch_work(const MachineSetup& machine, MotorIndex motor) {
+    std::expected<void, std::string> follow_slides(const MachineSetup& machine, MotorIndex motor) {
         auto touched = TouchedDevice::open(machine, machine.network.domain, motor, clock_.now());
         if (!touched) { return std::unexpected(touched.error()); }
         touched_.emplace(std::move(*touched));
@@ -87,7 +87,7 @@ private:
     PushedSlide slide_;
     Plant plant_;
     std::unique_ptr<ServedDevice> device_;
-    std::optional<TouchedDevice> touched_;  // none: the machine has no workpiece
+    std::optional<TouchedDevice> touched_;  // none: the machine's slides touch nothing
 };
 
 std::expected<Board, std::string> set_up(const FpgaOptions& options, MakeDevice make) {
@@ -98,8 +98,8 @@ std::expected<Board, std::string> set_up(const FpgaOptions& options, MakeDevice 
     if (!motor) { return std::unexpected(options.machine_file + ": no axis \"" + options.axis + "\""); }
     Board board(options, make, motors_of(machine)[*motor], machine);
     if (auto up = board.power_up(); !up) { return std::unexpected(up.error()); }
-    if (!machine.workpiece) { return board; }
-    if (auto work = board.touch_work(machine, *motor); !work) { return std::unexpected(work.error()); }
+    if (!TouchedDevice::is_needed(machine)) { return board; }
+    if (auto followed = board.follow_slides(machine, *motor); !followed) { return std::unexpected(followed.error()); }
     return board;
 }
 

@@ -40,8 +40,7 @@ VirtualDevices::VirtualDevices(const VirtualOptions& options, const MachineClock
       machine_(options.machine),
       motors_(motors_of(machine_)),
       seed_(options.seed),
-      switches_(machine_),
-      work_(machine_) {
+      contacts_(machine_) {
     for (std::size_t i = 0; i < motors_.size(); ++i) {
         devices_.push_back({.abilities = i < options.devices.size() ? options.devices[i] : DeviceAbilities{},
                             .window = RegisterWindow::in_process(),
@@ -93,12 +92,11 @@ void VirtualDevices::set_input(std::size_t input, bool closed, Tick now) {
 /// An axis that searches its switch, or a probe that approaches the workpiece, goes a small part of a step in kLook.
 /// Only where a switch may change, so many times are looked at.
 void VirtualDevices::follow_switches(Tick now) {
-    if (switches_.none() && work_.none()) { return; }
+    if (contacts_.none()) { return; }
     constexpr Ticks kLook{16};
     for (Device& device : devices_) { device.next_step.reset(); }
     const Ticks ticks = now - followed_;
-    const bool may_close = switches_.may_change_within(ticks);
-    const bool may_change = work_.may_change_within(ticks) || may_close;
+    const bool may_change = contacts_.may_change_within(ticks);
     for (Tick at = followed_ + kLook; may_change && at < now; at += kLook) {
         if (!may_have_stepped(at)) { continue; }
         follow_switches_at(at);
@@ -129,8 +127,7 @@ void VirtualDevices::follow_switches_at(Tick now) {
         advance(i, now);
         slides.push_back(Position::steps(to_steps(motors_[i], (*this)[i].plant().position_mm())));
     }
-    switches_.follow(slides, [&](std::size_t input, bool closed) { set_input(input, closed, now); });
-    work_.follow(slides, [&](std::size_t input, bool closed) {
+    contacts_.follow(slides, [&](std::size_t input, bool closed) {
         const InputConfig& config = machine_.inputs[input];
         set_contact((*this)[motor_named(machine_, config.motor).value()].plant(), config, closed);
     });

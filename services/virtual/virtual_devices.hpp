@@ -9,12 +9,11 @@
 
 #include "services/axis/axis_node.hpp"
 #include "services/axis/window_port.hpp"
-#include "services/virtual/axis_switches.hpp"
 #include "services/virtual/late_link.hpp"
 #include "services/virtual/machine_clocks.hpp"
 #include "services/virtual/virtual_fault.hpp"
 #include "services/virtual/virtual_options.hpp"
-#include "sim_fpga/workpiece/work_contacts.hpp"
+#include "sim_fpga/contacts/slide_contacts.hpp"
 
 namespace lockstep {
 
@@ -68,9 +67,8 @@ private:
     std::vector<MotorConfig> motors_;
     std::uint64_t seed_;
     std::vector<Device> devices_;
-    AxisSwitches switches_;
-    WorkContacts work_;
-    Tick followed_;  // by both
+    SlideContacts contacts_;
+    Tick followed_;  // by the contacts
 };
 
 }  // namespace lockstep

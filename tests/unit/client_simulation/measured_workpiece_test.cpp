@@ -11,7 +11,7 @@
 #include "services/documents/machine_file.hpp"
 #include "services/documents/program_file.hpp"
 #include "services/record/sinks.hpp"
-#include "sim_fpga/workpiece/workpiece.hpp"
+#include "sim_fpga/contacts/workpiece.hpp"
 
 namespace lockstep {
 namespace {

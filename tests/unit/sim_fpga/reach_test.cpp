@@ -1,7 +1,7 @@
 // How far an axis can go in the next interval, by which contacts are looked at closely.
 #include <gtest/gtest.h>
 
-#include "sim_fpga/workpiece/reach.hpp"
+#include "sim_fpga/contacts/reach.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,5 +1,5 @@
 // The places of simulated slides in memory that the processes of a machine share.
-#include "sim_fpga/workpiece/shared_slides.hpp"
+#include "sim_fpga/contacts/shared_slides.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -34,9 +34,9 @@ TEST(SharedSlides, OneProcessSeesWhatAnotherPublishes) {
     auto first = SharedSlides::open(config, kDomain);
     auto second = SharedSlides::open(config, kDomain);
     ASSERT_TRUE(first && second);
-    const std::int64_t start = second->places()[1].count();
-    first->publish(MotorIndex{1}, 250);
-    EXPECT_EQ(second->places()[1].count(), start + 250);
+    const std::int64_t start = second->places(Tick{})[1].count();
+    first->publish(MotorIndex{1}, {.steps = 250});
+    EXPECT_EQ(second->places(Tick{})[1].count(), start + 250);
 }
 
 TEST(SharedSlides, TheLastOneThatClosesTheMemoryRemovesIt) {
@@ -52,9 +52,9 @@ TEST(SharedSlides, TheLastOneThatClosesTheMemoryRemovesIt) {
 
 TEST(SharedSlides, AMachineThatIsUpAgainStartsWithSlidesAtTheirStarts) {
     const MachineConfig config = machine();
-    const std::int64_t start = SharedSlides::open(config, kDomain)->places()[0].count();
-    SharedSlides::open(config, kDomain)->publish(MotorIndex{0}, 400);
-    EXPECT_EQ(SharedSlides::open(config, kDomain)->places()[0].count(), start);
+    const std::int64_t start = SharedSlides::open(config, kDomain)->places(Tick{})[0].count();
+    SharedSlides::open(config, kDomain)->publish(MotorIndex{0}, {.steps = 400});
+    EXPECT_EQ(SharedSlides::open(config, kDomain)->places(Tick{})[0].count(), start);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The gap between a probe's ball and the solids of a simulated workpiece.
-#include "sim_fpga/workpiece/workpiece.hpp"
+#include "sim_fpga/contacts/workpiece.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "services/virtual/axis_switches.hpp"
+#include "sim_fpga/contacts/axis_switches.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,12 @@
 
 namespace lockstep {
 
-AxisSwitches::AxisSwitches(const MachineConfig& machine) : kinematics_(machine) {
+AxisSwitches::AxisSwitches(const MachineConfig& machine, const std::string& motor) : kinematics_(machine) {
     for (const AxisIndex i : axis_indices(machine.axes.size())) {
         const AxisConfig& axis = machine.axes[i];
         for (std::size_t n = 0; n < machine.inputs.size(); ++n) {
             const InputConfig& input = machine.inputs[n];
+            if (!motor.empty() && input.motor != motor) { continue; }
             const bool is_home = row_of(axis.homing.way).runs_programs && input.name == axis.homing.input;
             if (is_home) { add(n, i, machine, axis.homing.switch_position_mm, axis.homing.toward_min); }
             if (!input.is_limit_by_message() || input.axis != axis.name) { continue; }

@@ -9,8 +9,8 @@
 
 #include "core/kinematics/kinematics.hpp"
 #include "core/machine.hpp"
-#include "sim_fpga/workpiece/reach.hpp"
-#include "sim_fpga/workpiece/workpiece.hpp"
+#include "sim_fpga/contacts/reach.hpp"
+#include "sim_fpga/contacts/workpiece.hpp"
 
 namespace lockstep {
 

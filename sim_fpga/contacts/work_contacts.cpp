@@ -1,4 +1,4 @@
-#include "sim_fpga/workpiece/work_contacts.hpp"
+#include "sim_fpga/contacts/work_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>

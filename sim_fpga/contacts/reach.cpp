@@ -1,4 +1,4 @@
-#include "sim_fpga/workpiece/reach.hpp"
+#include "sim_fpga/contacts/reach.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "sim_fpga/workpiece/shared_slides.hpp"
+#include "sim_fpga/contacts/shared_slides.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <bit>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -14,11 +15,11 @@ namespace lockstep {
 namespace {
 
 constexpr std::size_t kBytes = 4096;
+constexpr double kCountsOn_s = 0.1;
 constexpr int kMaxTries = 100;  // others may remove it as often while this process opens it
-static_assert(kMaxAxes * sizeof(std::int64_t) <= kBytes);
 
 std::unexpected<std::string> cannot(const std::string& name, const char* action) {
-    return std::unexpected("shared memory \"" + name + "\" of the simulated workpiece: cannot " + action + ": " +
+    return std::unexpected("shared memory \"" + name + "\" of the simulated slides: cannot " + action + ": " +
                            std::strerror(errno));
 }
 
@@ -71,15 +72,43 @@ std::expected<SharedSlides, std::string> SharedSlides::open(const MachineConfig&
         const auto memory = std::make_shared<HeldMemory>(name, file);
         if (!memory->hold()) { continue; }
         if (!memory->map()) { return cannot(name, "map it"); }
-        return SharedSlides({memory, memory->words()}, motors_of(machine));
+        return SharedSlides({memory, memory->words()}, machine);
     }
     return cannot(name, "lock it");
 }
 
-std::vector<Position> SharedSlides::places() const {
+SharedSlides::SharedSlides(std::shared_ptr<std::int64_t[]> words, const MachineConfig& machine)
+    : words_(std::move(words)),
+      motors_(motors_of(machine)),
+      counts_on_{static_cast<std::int64_t>(kCountsOn_s * machine.ticks_per_second())} {
+    static_assert(kMaxAxes * Words * sizeof(std::int64_t) <= kBytes);
+}
+
+void SharedSlides::publish(MotorIndex motor, const SlideMotion& slide) {
+    const std::int64_t turn = word(motor, Turn).load();
+    word(motor, Turn).store(turn | 1);
+    word(motor, Steps).store(slide.steps);
+    word(motor, At).store(slide.at.value);
+    word(motor, Speed).store(std::bit_cast<std::int64_t>(slide.steps_per_tick));
+    word(motor, Turn).store((turn | 1) + 1);
+}
+
+/// A process that ended while it published leaves an odd turn. Then what it wrote last is taken.
+SlideMotion SharedSlides::slide(MotorIndex motor) const {
+    SlideMotion slide;
+    for (int tries = 0; tries < kMaxTries; ++tries) {
+        const std::int64_t turn = word(motor, Turn).load();
+        slide = {word(motor, Steps).load(), Tick{word(motor, At).load()},
+                 std::bit_cast<double>(word(motor, Speed).load())};
+        if (turn % 2 == 0 && word(motor, Turn).load() == turn) { break; }
+    }
+    return slide;
+}
+
+std::vector<Position> SharedSlides::places(Tick now) const {
     std::vector<Position> places;
     for (const MotorIndex m : motor_indices(motors_.size())) {
-        const auto steps = static_cast<double>(word(m).load(std::memory_order_relaxed));
+        const double steps = slide(m).place(now, counts_on_);
         const double way_mm = motors_[m].steps_per_mm > 0 ? steps / motors_[m].steps_per_mm : 0;
         places.push_back(Position::steps(to_steps(motors_[m], motors_[m].plant.start_position_mm + way_mm)));
     }

@@ -1,4 +1,4 @@
-#include "sim_fpga/workpiece/workpiece.hpp"
+#include "sim_fpga/contacts/workpiece.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,17 +5,19 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/kinematics/kinematics.hpp"
 #include "core/machine.hpp"
-#include "sim_fpga/workpiece/reach.hpp"
+#include "sim_fpga/contacts/reach.hpp"
 
 namespace lockstep {
 
 class AxisSwitches {
 public:
-    explicit AxisSwitches(const MachineConfig& machine);
+    /// `motor`: follows only the inputs of this motor's device; empty: all.
+    explicit AxisSwitches(const MachineConfig& machine, const std::string& motor = {});
 
     bool none() const { return switches_.empty(); }
     /// Calls set(input, closed) for each switch that changes while the slides of the motors are at these places.

@@ -1,22 +1,24 @@
-// Runs the simulated device of one motor in real time, and closes its inputs of probes where the machine's workpiece
-// touches.
+// Runs the simulated device of one motor in real time, and closes those of its inputs that slides of the machine touch:
+// switches of axes, and probes at the machine's workpiece.
 //
-// The device's own slide is followed to 16 ticks. The others are where their processes published them last, at most a
-// loop ago: a touch by their motion is seen so much later.
+// The device's own slide is followed to 16 ticks. The others count on from where their processes published them last,
+// at most a loop ago, at the mean speed that they had: to about a step, unless they begin to move or turn in that time.
 #pragma once
 
 #include <expected>
 #include <functional>
 #include <string>
 
+#include "sim_fpga/contacts/shared_slides.hpp"
+#include "sim_fpga/contacts/slide_contacts.hpp"
 #include "sim_fpga/plant.hpp"
-#include "sim_fpga/workpiece/shared_slides.hpp"
-#include "sim_fpga/workpiece/work_contacts.hpp"
 
 namespace lockstep {
 
 class TouchedDevice {
 public:
+    /// Whether slides of the machine touch something, so that its simulated devices need this.
+    static bool is_needed(const MachineConfig& machine) { return !SlideContacts(machine).none(); }
     /// The device is at `now`. `domain` and error: those of SharedSlides::open.
     static std::expected<TouchedDevice, std::string> open(const MachineConfig& machine, std::uint32_t domain,
                                                           MotorIndex motor, Tick now);
@@ -31,7 +33,9 @@ private:
     std::vector<InputConfig> inputs_;  // of the machine
     MotorIndex motor_;
     SharedSlides slides_;
-    WorkContacts contacts_;
+    SlideContacts contacts_;
+    SlideSpeed speed_;
+    double steps_per_tick_ = 0;
     Tick now_;
 };
 

@@ -1,4 +1,4 @@
-#include "sim_fpga/workpiece/touched_device.hpp"
+#include "sim_fpga/contacts/touched_device.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -28,14 +28,15 @@ void TouchedDevice::advance(Tick until, Plant& plant, const std::function<void(T
     const bool may_change = contacts_.may_change_within(until - now_);
     for (Tick at = now_ + look_every; may_change && at < until; at += look_every) { look(at, plant, run); }
     look(until, plant, run);
+    steps_per_tick_ = speed_.look(plant.slide(), until);
     now_ = until;
 }
 
 void TouchedDevice::look(Tick at, Plant& plant, const std::function<void(Tick)>& run) {
     run(at);
-    slides_.publish(motor_, plant.slide());
+    slides_.publish(motor_, {plant.slide(), at, steps_per_tick_});
     if (contacts_.none()) { return; }
-    contacts_.follow(slides_.places(),
+    contacts_.follow(slides_.places(at),
                      [&](std::size_t input, bool closed) { set_contact(plant, inputs_[input], closed); });
 }
 
