@@ -196,11 +196,11 @@ bool FramePlanner::is_ready() { return !is_done_ && start() && trace(); }
 
 std::optional<FitFailure> FramePlanner::fit(PathFrame& frame, FrameCursor& behind, FrameRoom* room) {
     if (auto failure = fit_body(frame, behind)) { return failure; }
-    if (!frame.last && !fit_tail(frame, behind)) { return FitFailure{frame.ticks, false}; }
+    if (!frame.last && !fit_tail(frame, behind)) { return FitFailure{frame.ticks}; }
     note_begins(path_, frame.ticks, trail_, begins_);
     note_tail(frame, tail_, setup_, trail_, tail_begins_);
     const bool fits = room == nullptr || room->has_room(begins_, tail_begins_, frame.last);
-    return fits ? std::nullopt : std::optional(FitFailure{.at = frame.ticks, .is_full = true, .is_crowded = true});
+    return fits ? std::nullopt : std::optional(FitFailure{frame.ticks, FitFailure::Why::Crowded});
 }
 
 std::expected<const PathFrame*, PathStuck> FramePlanner::next(FrameRoom* room) {
@@ -314,12 +314,13 @@ void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt
     const double at = as_double(failure.at);
     const double share = at / as_double(ticks);
     const double needed = attempt < kAttempts / 2 ? std::clamp(share * share, kSlowest, kSlower) : kSlowest;
-    const double slower = failure.is_full ? needed : kSlower;
-    const double from = failure.is_full ? 0 : at - static_cast<double>(kSlowTicks << std::min(attempt, 8));
-    const double to = failure.is_full ? as_double(ticks) : at;
+    const bool is_full = failure.why != FitFailure::Why::NoPiece;
+    const double slower = is_full ? needed : kSlower;
+    const double from = is_full ? 0 : at - static_cast<double>(kSlowTicks << std::min(attempt, 8));
+    const double to = is_full ? as_double(ticks) : at;
     if (!has_made_) { start_slower(slower); }
     restart_here(at_, window_);
-    const Ticks enough = failure.is_crowded ? setup_.frame_ticks : Ticks{};
+    const Ticks enough = failure.why == FitFailure::Why::Crowded ? setup_.frame_ticks : Ticks{};
     double least = at_.w0;
     std::size_t last = at_.interval;
     const auto& passages = path_.passages();
@@ -332,7 +333,7 @@ void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt
         last = passage.interval;
         const bool is_rest = part.kind == IntervalKind::Rest;
         if ((is_rest ? end : begin) >= from) { window_.lower(last + 1, std::max(slower * passage.w1, least)); }
-        if (failure.is_full && last > at_.interval) { window_.slow(last, slower, enough); }
+        if (is_full && last > at_.interval) { window_.slow(last, slower, enough); }
         if (begin > to + kMargin_ticks) { break; }
     }
     window_.update(at_.interval + 1, std::min(last + 1, window_.end() - 1));

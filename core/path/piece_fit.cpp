@@ -198,7 +198,7 @@ std::optional<FitFailure> PieceFit::fit(const TimedPath& path, Ticks end, std::s
             ticks = half;
         }
         if (ticks == Ticks{}) { return FitFailure{now}; }
-        if (made == most) { return FitFailure{now, true}; }
+        if (made == most) { return FitFailure{now, FitFailure::Why::Full}; }
         for (const MotorIndex i : motor_indices(setup_.motors())) {
             points[i] = points_[i];
             fitted_[i].push_back(pieces_[i]);

@@ -6,6 +6,7 @@
 // the end of the range.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,11 +16,15 @@
 
 namespace lockstep {
 
-/// A place where no piece keeps the limits, or, if is_full, where the frame has no room for more pieces.
+/// The place up to which a frame could be made, and why not further.
 struct FitFailure {
+    enum class Why : std::uint8_t {
+        NoPiece,  // no piece keeps the limits here
+        Full,     // the frame has no room for more pieces
+        Crowded,  // the frame has no room for what happens at the begins of its moves
+    };
     Ticks at;  // from the begin of the frame
-    bool is_full = false;
-    bool is_crowded = false;  // it is full of what happens at the begins of its moves, not of pieces
+    Why why = Why::NoPiece;
 };
 
 class PieceFit {
