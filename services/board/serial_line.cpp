@@ -10,24 +10,10 @@
 #include "services/board/line_failure.hpp"
 
 namespace lockstep {
-namespace {
-
-std::unexpected<std::string> not_opened(const std::string& path) {
-    switch (errno) {
-        case EACCES:
-            return line_failure(path, std::strerror(errno),
-                                "let this user use it: adduser USER dialout, then log in again");
-        case EBUSY: return line_is_held(path);
-        default: return line_failure(path, std::strerror(errno), "check the board's cable");
-    }
-}
-
-}  // namespace
-
 /// Two hosts would each get a part of the bytes. TIOCEXCL does not keep root out, so there is a lock too.
 std::expected<Descriptor, std::string> open_serial_line(const std::string& path, speed_t speed) {
     Descriptor line(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-    if (!line.is_open()) { return not_opened(path); }
+    if (!line.is_open()) { return line_not_opened(LinkName::Kind::Serial, path, errno); }
     termios mode{};
     if (::tcgetattr(line.get(), &mode) != 0) { return line_failure(path, std::strerror(errno), "name a serial line"); }
     if (::flock(line.get(), LOCK_EX | LOCK_NB) != 0) { return line_is_held(path); }

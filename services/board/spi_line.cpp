@@ -17,25 +17,11 @@ namespace {
 
 constexpr std::size_t kMostTransactions = 8;
 
-std::unexpected<std::string> spi_not_opened(const std::string& path) {
-    const std::string why = std::strerror(errno);
-    if (errno == EACCES) {
-        return line_failure(path, why, "let this user use it: adduser USER spi, then log in again");
-    }
-    if (errno == ENOENT || errno == ENXIO || errno == ENODEV) {
-        return line_failure(
-            path, why,
-            "enable the SPI, on a Raspberry Pi by dtparam=spi=on in /boot/firmware/config.txt and a restart, "
-            "and compare the name with: ls /dev/spidev*");
-    }
-    return line_failure(path, why, "name an SPI device, such as /dev/spidev0.0");
-}
-
 }  // namespace
 
 std::expected<SpiLine, std::string> SpiLine::open(const std::string& path, std::uint32_t speed_hz) {
     Descriptor line(::open(path.c_str(), O_RDWR | O_CLOEXEC));
-    if (!line.is_open()) { return spi_not_opened(path); }
+    if (!line.is_open()) { return line_not_opened(LinkName::Kind::Spi, path, errno); }
     std::uint8_t mode = SPI_MODE_0;
     std::uint8_t bits = 8;
     if (::ioctl(line.get(), SPI_IOC_WR_MODE, &mode) != 0) {

@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include "clients/lockstep/live/board_look.hpp"
 #include "core/hardware/device_abilities.hpp"
 #include "core/kinematics/motors.hpp"
 #include "services/axis/device_driver.hpp"
+#include "services/board/line_failure.hpp"
 
 namespace lockstep {
 namespace {
@@ -155,12 +155,7 @@ proto::BoardReport identify_board(const MachineSetup& machine, const BoardLinkCo
 std::string why_not_opened(const BoardLinkConfig& board) {
     const LinkName& link = board.link;
     if (link.kind == LinkName::Kind::Tcp || ::access(link.place.c_str(), R_OK | W_OK) == 0) { return ""; }
-    const bool is_spi = link.kind == LinkName::Kind::Spi;
-    const std::string remedy = errno == EACCES ? fmt::format("let this user use it: adduser USER {}, then log in again",
-                                                             is_spi ? "spi" : "dialout")
-                               : is_spi        ? "enable the SPI, and compare the name with: ls /dev/spidev*"
-                                        : fmt::format("check the board's cable, and its name in /dev/{}", kByName);
-    return fmt::format("{}: {}; {}", link.place, std::strerror(errno), remedy);
+    return line_not_opened(link.kind, link.place, errno).error();
 }
 
 namespace {
