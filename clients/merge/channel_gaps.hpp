@@ -29,12 +29,12 @@ public:
 
 private:
     /// Numbers without a gap.
-    struct Stretch {
+    struct Sequence {
         std::int64_t end = 0;
         std::int64_t first_us = 0;
         std::int64_t last_us = 0;
     };
-    std::map<std::int64_t, Stretch> stretches_;  // by their first number
+    std::map<std::int64_t, Sequence> sequences_;  // by their first number
     std::optional<std::int64_t> least_lost_;
     std::optional<std::int64_t> most_lost_;
 };

@@ -8,6 +8,7 @@
 #include "core/hardware/device_setup.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/machine.hpp"
+#include "core/step/executable.hpp"
 #include "core/units.hpp"
 
 namespace lockstep {
@@ -17,7 +18,7 @@ struct DeviceAbilities {
     std::uint64_t segment_entries = 2048;
     std::uint64_t capture_entries = 65'536;
     Ticks least_step{2};                         // from one step to the next
-    Ticks longest_piece{std::int64_t{1} << 42};  // kMaxPieceTicks
+    Ticks longest_piece = kMaxPieceTicks;
     Ticks lead;                                  // so long before its start a frame must be loaded and armed
     Ticks behind;                                // so long behind its ticks the pins are, at most
     std::uint64_t time_unit_ps = 1000;           // of pulse times and PWM periods
