@@ -452,4 +452,12 @@ MotorMap step_map_of(const MachineConfig& machine) {
     return {std::move(map), delta_of(machine), std::move(screws)};
 }
 
+bool corrects_screw(const MachineConfig& machine, AxisIndex axis) {
+    const MotorMap map = step_map_of(machine);
+    for (const MotorIndex m : motor_indices(map.motors())) {
+        if (map.screw(m) != nullptr && map.shares().factor(m, axis) != 0) { return true; }
+    }
+    return false;
+}
+
 }  // namespace lockstep

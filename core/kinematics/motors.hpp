@@ -69,6 +69,8 @@ std::vector<std::string> moving_motor_names(const MachineConfig& machine);
 LinearMap motor_map_of(const MachineConfig& machine);
 /// The places of the moving motors in steps by those of the axes in steps.
 MotorMap step_map_of(const MachineConfig& machine);
+/// A motor that moves this axis corrects the errors of its screw.
+bool corrects_screw(const MachineConfig& machine, AxisIndex axis);
 /// The machine's delta. nullopt if it has none, or if its axes, towers or motors are not three each.
 std::optional<MachineDelta> delta_of(const MachineConfig& machine);
 /// The travel demands this of the carriage of a tower.

@@ -1,5 +1,7 @@
 #include "core/motion/frame_limits.hpp"
 
+#include <algorithm>
+
 #include "core/kinematics/motors.hpp"
 
 namespace lockstep {
@@ -36,6 +38,11 @@ std::vector<AxisLimits> axis_frame_limits_of(const MachineConfig& machine) {
         limits.push_back(with_reserves(machine, axis, machine.estimates_clocks()));
     }
     return limits;
+}
+
+AxisCounts within_travel(AxisCounts at, std::span<const AxisLimits> axes) {
+    for (std::size_t i = 0; i < at.size(); ++i) { at[i] = std::clamp(at[i], axes[i].min_steps, axes[i].max_steps); }
+    return at;
 }
 
 }  // namespace lockstep

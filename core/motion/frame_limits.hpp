@@ -9,9 +9,11 @@
 // ticks, the reserves are 0.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/kinematics/motors.hpp"
+#include "core/kinematics/places.hpp"
 
 namespace lockstep::clock_reserve {
 
@@ -28,5 +30,7 @@ AxisLimits frame_limits_of(const MachineConfig& machine, MotorIndex motor);
 std::vector<AxisLimits> frame_limits_of(const MachineConfig& machine);
 /// The limits of the axes themselves by the machine's file, with reserves if a motor estimates a clock.
 std::vector<AxisLimits> axis_frame_limits_of(const MachineConfig& machine);
+/// The nearest place that each axis may have, by axis_frame_limits_of.
+AxisCounts within_travel(AxisCounts at, std::span<const AxisLimits> axes);
 
 }  // namespace lockstep

@@ -1,7 +1,8 @@
 #include "core/coordinator/homing/assumed_place.hpp"
 
-#include <algorithm>
 #include <cstdlib>
+
+#include "core/motion/frame_limits.hpp"
 
 namespace lockstep {
 namespace {
@@ -10,11 +11,9 @@ namespace {
 /// begin there.
 AxisCounts near_travel(AxisCounts at, const LoopView& loop) {
     constexpr std::int64_t kRoundings = 2;  // of where the motors rest, and of where they are assumed to be
+    const AxisCounts inside = within_travel(at, axis_frame_limits_of(loop.machine));
     for (const AxisIndex i : axis_indices(at.size())) {
-        const AxisConfig& axis = loop.machine.axes[i];
-        const std::int64_t inside =
-            std::clamp(at[i], to_steps(axis, axis.position_min_mm), to_steps(axis, axis.position_max_mm));
-        if (std::abs(at[i] - inside) <= kRoundings * loop.kinematics.rest_steps(i)) { at[i] = inside; }
+        if (std::abs(at[i] - inside[i]) <= kRoundings * loop.kinematics.rest_steps(i)) { at[i] = inside[i]; }
     }
     return at;
 }

@@ -64,11 +64,6 @@ void end(Leg& leg, std::uint32_t before, const AxisCounts& at) {
 
 }  // namespace
 
-AxisCounts within_travel(AxisCounts to, std::span<const AxisLimits> axes) {
-    for (std::size_t i = 0; i < to.size(); ++i) { to[i] = std::clamp(to[i], axes[i].min_steps, axes[i].max_steps); }
-    return to;
-}
-
 Ticks ticks_of(const Dwell& dwell, double tick_s) {
     return {static_cast<std::int64_t>(std::ceil(std::min(dwell.seconds, kMaxDwell_s) / tick_s))};
 }

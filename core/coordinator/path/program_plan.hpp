@@ -48,10 +48,6 @@ inline void note_end(const Block& block, LegEnd& end) {
 }
 inline bool ends_leg(const Block& block) { return end_by(block) != LegEnd::Kind::Program; }
 
-/// Where a move ends that leads to `to`. An axis that rests a little beyond its travel, because its motors rest on
-/// whole steps, returns with the next move of any axis.
-AxisCounts within_travel(AxisCounts to, std::span<const AxisLimits> axes);
-
 /// The machine's side of planning: limits and scales of all axes.
 class ProgramPlanner {
 public:

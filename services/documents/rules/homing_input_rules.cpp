@@ -17,15 +17,6 @@ bool is_of_delta(const AxisConfig& axis, const MachineConfig& machine) {
     return delta && (axis.name == delta->x || axis.name == delta->y || axis.name == delta->z);
 }
 
-bool corrects_screw(const AxisConfig& axis, const MachineConfig& machine) {
-    const MotorMap map = step_map_of(machine);
-    const AxisIndex i = machine.axis_named(axis.name).value();
-    for (const MotorIndex m : motor_indices(map.motors())) {
-        if (map.screw(m) != nullptr && map.shares().factor(m, i) != 0) { return true; }
-    }
-    return false;
-}
-
 void check_overshoot(const MachineConfig& machine, const AxisConfig& axis, const InputConfig& input,
                      ProblemList& problems) {
     const double speed = axis.homing.search_velocity_mm_s;
@@ -63,7 +54,7 @@ void check_homing_input(const MachineConfig& machine, const AxisConfig& axis, Pr
                      "homing.input is given, but the axis is of a delta, whose carriages home by their own switches; "
                      "remove it");
     problems.require(
-        !corrects_screw(axis, machine), "homing.input",
+        !corrects_screw(machine, machine.axis_named(axis.name).value()), "homing.input",
         "homing.input is given, and a motor of the axis corrects its screw: until the axis is homed nobody "
         "knows which part of the screw moves it, so the way from the switch would be wrong; remove screw, "
         "or wire the switch to the device of the axis's motor and remove input");

@@ -39,18 +39,9 @@ std::optional<InputConfig> draw_switch(Draw& draw, const MachineConfig& machine,
     return !is_taken && input.max_overshoot_mm > 0.001 ? std::optional(input) : std::nullopt;
 }
 
-/// Such an axis does not home by touch.
-bool corrects_screw(const MachineConfig& machine, const AxisConfig& axis) {
-    const Kinematics kinematics(machine);
-    for (const MotorIndex m : kinematics.motors_of_axes({machine.axis_named(axis.name).value()})) {
-        if (kinematics.corrects_screw(m)) { return true; }
-    }
-    return false;
-}
-
 /// Leaves the axis as it is if its searches would take too long.
 bool give_switch(Draw& draw, AxisConfig& axis, MachineConfig& machine) {
-    if (corrects_screw(machine, axis)) { return false; }
+    if (corrects_screw(machine, machine.axis_named(axis.name).value())) { return false; }  // it does not home by touch
     const auto input = draw_switch(draw, machine, axis);
     if (!input) { return false; }
     AxisConfig slower = axis;
