@@ -19,12 +19,12 @@ void ProgramDevices::apply(const ProgramEvent& event) {
     const std::uint64_t output = event.index >= 0 && event.index < 64 ? std::uint64_t{1} << event.index : 0;
     switch (event.kind) {
         case Kind::SpindleStop:
-            spindle = Spindle::Stopped;
+            spindle = SpindleDirection::Stopped;
             spindle_rpm = 0;
             return;
         case Kind::SpindleForward:
         case Kind::SpindleReverse:
-            spindle = event.kind == Kind::SpindleForward ? Spindle::Forward : Spindle::Reverse;
+            spindle = event.kind == Kind::SpindleForward ? SpindleDirection::Forward : SpindleDirection::Reverse;
             spindle_rpm = event.value;
             return;
         case Kind::SpindleSpeed: spindle_rpm = event.value; return;
@@ -43,6 +43,14 @@ void ProgramDevices::apply(const ProgramEvent& event) {
             pulses.count = pulses.left = static_cast<std::uint32_t>(std::max(event.index, 0));
             return;
     }
+}
+
+std::vector<ProgramEvent> ProgramDevices::words_off() const {
+    using Kind = ProgramEvent::Kind;
+    std::vector<ProgramEvent> words;
+    if (spindle != SpindleDirection::Stopped) { words.push_back({.kind = Kind::SpindleStop}); }
+    if (mist || flood) { words.push_back({.kind = Kind::CoolantOff}); }
+    return words;
 }
 
 bool ProgramDevices::output_is_on(std::int32_t number) const {

@@ -20,10 +20,10 @@ struct PulseOrder {
     bool operator==(const PulseOrder&) const = default;
 };
 
-struct ProgramDevices {
-    enum class Spindle : std::uint8_t { Stopped, Forward, Reverse };
+enum class SpindleDirection : std::uint8_t { Stopped, Forward, Reverse };  // M5 M3 M4
 
-    Spindle spindle = Spindle::Stopped;
+struct ProgramDevices {
+    SpindleDirection spindle = SpindleDirection::Stopped;
     double spindle_rpm = 0;  // commanded; meaningful while it turns
     bool mist = false;
     bool flood = false;
@@ -34,6 +34,8 @@ struct ProgramDevices {
     bool operator==(const ProgramDevices&) const = default;
 
     void apply(const ProgramEvent& event);
+    /// The words that stop the spindle and the coolant, if they are on.
+    std::vector<ProgramEvent> words_off() const;
     /// The numbers of the outputs that are on, in ascending order.
     std::vector<std::uint32_t> outputs_on() const;
     /// Numbers that are not stored are off, and 0.

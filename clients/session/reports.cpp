@@ -93,7 +93,7 @@ std::optional<proto::FaultReport> fault_of(const MachineState& state, const Mach
 
 std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices) {
     if (devices == ProgramDevices{}) { return std::nullopt; }
-    using Spindle = ProgramDevices::Spindle;
+    using Spindle = SpindleDirection;
     proto::DevicesReport report;
     if (devices.spindle != Spindle::Stopped) {
         report.mutable_spindle()->set_direction(devices.spindle == Spindle::Forward ? "forward" : "reverse");

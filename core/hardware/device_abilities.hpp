@@ -17,11 +17,11 @@ namespace lockstep {
 struct DeviceAbilities {
     std::uint64_t segment_entries = 2048;
     std::uint64_t capture_entries = 65'536;
-    Ticks least_step{2};                         // from one step to the next
+    Ticks least_step{2};  // from one step to the next
     Ticks longest_piece = kMaxPieceTicks;
-    Ticks lead;                                  // so long before its start a frame must be loaded and armed
-    Ticks behind;                                // so long behind its ticks the pins are, at most
-    std::uint64_t time_unit_ps = 1000;           // of pulse times and PWM periods
+    Ticks lead;                         // so long before its start a frame must be loaded and armed
+    Ticks behind;                       // so long behind its ticks the pins are, at most
+    std::uint64_t time_unit_ps = 1000;  // of pulse times and PWM periods
     std::uint64_t longest_time = 1'000'000'000;
     std::uint64_t longest_pwm_period = 1'000'000'000;
     std::uint64_t inputs = 8;

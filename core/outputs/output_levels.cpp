@@ -7,7 +7,7 @@
 namespace lockstep {
 namespace {
 
-bool turns(const ProgramDevices& devices) { return devices.spindle != ProgramDevices::Spindle::Stopped; }
+bool turns(const ProgramDevices& devices) { return devices.spindle != SpindleDirection::Stopped; }
 
 /// The value of S, or of the E number of M67, in the unit of full_scale.
 double commanded(const OutputConfig& output, const ProgramDevices& devices) {
@@ -21,7 +21,7 @@ bool is_on(const OutputConfig& output, const ProgramDevices& devices) {
     switch (output.use) {
         case OutputUse::Number: return devices.output_is_on(output.number);
         case OutputUse::Spindle: return turns(devices);
-        case OutputUse::SpindleReverse: return devices.spindle == ProgramDevices::Spindle::Reverse;
+        case OutputUse::SpindleReverse: return devices.spindle == SpindleDirection::Reverse;
         case OutputUse::Mist: return devices.mist;
         case OutputUse::Flood: return devices.flood;
         case OutputUse::Places: return false;
@@ -75,7 +75,7 @@ bool is_switched_by(const OutputConfig& output, const ProgramEvent& event) {
 
 bool follows_speed(const OutputConfig& output, const ProgramDevices& devices) {
     return output.pwm->follows_speed && output.use == OutputUse::Spindle &&
-           devices.spindle == ProgramDevices::Spindle::Reverse;
+           devices.spindle == SpindleDirection::Reverse;
 }
 
 std::optional<ComparePosition> pulses_of(const OutputConfig& output, const ProgramDevices& devices,

@@ -38,7 +38,7 @@ GcodeLines::GcodeLines(const MachineSetup& machine)
 
 bool GcodeLines::switch_off() {
     const gcode::Modal& modal = session_.state().modal;
-    const bool was_on = modal.spindle != gcode::SpindleDirection::Stopped || modal.mist || modal.flood;
+    const bool was_on = modal.spindle != SpindleDirection::Stopped || modal.mist || modal.flood;
     session_.set_devices({});
     return was_on;
 }

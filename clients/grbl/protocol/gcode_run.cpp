@@ -135,14 +135,8 @@ void GcodeRun::switch_off() {
                          shared_.view.phase == MachinePhase::Idle && shared_.is_settled();
     if (!is_to_switch_off_ || !shared_.view.is_received || !is_free) { return; }
     is_to_switch_off_ = false;
-    const ProgramDevices& devices = shared_.view.devices;
     LineToRun line{.from_mm = place_mm()};
-    if (devices.spindle != ProgramDevices::Spindle::Stopped) {
-        line.blocks.push_back({.action = ProgramEvent{.kind = ProgramEvent::Kind::SpindleStop}});
-    }
-    if (devices.mist || devices.flood) {
-        line.blocks.push_back({.action = ProgramEvent{.kind = ProgramEvent::Kind::CoolantOff}});
-    }
+    for (const ProgramEvent& word : shared_.view.devices.words_off()) { line.blocks.push_back({.action = word}); }
     if (line.blocks.empty()) { return; }
     shared_.requests.add(Request::Kind::RunLine).line = std::move(line);
     ++shared_.view.lines;

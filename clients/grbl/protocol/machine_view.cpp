@@ -74,8 +74,8 @@ std::string letters_of_outputs(const MachineConfig& machine, const ProgramDevice
         }
         return !has_output && is_asked;
     };
-    const bool turns = is_on(OutputUse::Spindle, asked.spindle != ProgramDevices::Spindle::Stopped);
-    const bool is_reverse = is_on(OutputUse::SpindleReverse, asked.spindle == ProgramDevices::Spindle::Reverse);
+    const bool turns = is_on(OutputUse::Spindle, asked.spindle != SpindleDirection::Stopped);
+    const bool is_reverse = is_on(OutputUse::SpindleReverse, asked.spindle == SpindleDirection::Reverse);
     std::string letters;
     if (turns) { letters += is_reverse ? 'C' : 'S'; }
     if (is_on(OutputUse::Flood, asked.flood)) { letters += 'F'; }

@@ -10,7 +10,7 @@ namespace lockstep::verification {
 void SwitchedOff::check(JobOutcome outcome) {
     using Kind = ProgramEvent::Kind;
     const ProgramDevices& devices = devices_.state();
-    const bool turns = devices.spindle != ProgramDevices::Spindle::Stopped;
+    const bool turns = devices.spindle != SpindleDirection::Stopped;
     if (!check_off({.kind = Kind::SpindleStop}, turns)) { return; }
     if (!check_off({.kind = Kind::CoolantOff}, devices.mist || devices.flood)) { return; }
     for (const OutputConfig& output : outputs_) {

@@ -5,11 +5,11 @@
 namespace lockstep::web {
 namespace {
 
-const char* direction_name(ProgramDevices::Spindle spindle) {
+const char* direction_name(SpindleDirection spindle) {
     switch (spindle) {
-        case ProgramDevices::Spindle::Forward: return "forward";
-        case ProgramDevices::Spindle::Reverse: return "reverse";
-        case ProgramDevices::Spindle::Stopped: break;
+        case SpindleDirection::Forward: return "forward";
+        case SpindleDirection::Reverse: return "reverse";
+        case SpindleDirection::Stopped: break;
     }
     return "stopped";
 }
@@ -17,7 +17,7 @@ const char* direction_name(ProgramDevices::Spindle spindle) {
 }  // namespace
 
 nlohmann::json devices_document(const ProgramDevices& devices) {
-    const bool turns = devices.spindle != ProgramDevices::Spindle::Stopped;
+    const bool turns = devices.spindle != SpindleDirection::Stopped;
     return {{"spindle",
              {{"direction", direction_name(devices.spindle)}, {"rpm", turns ? rounded(devices.spindle_rpm, 1) : 0.0}}},
             {"mist", devices.mist},

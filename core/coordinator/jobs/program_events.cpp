@@ -33,8 +33,7 @@ void ProgramEvents::pass(const PathEvent& event, const Of& of, const LoopView& l
 
 void ProgramEvents::switch_off(std::uint64_t job, JobOutcome outcome, const LoopView& loop,
                                std::vector<PublishedEvent>& out) {
-    if (devices_.spindle != ProgramDevices::Spindle::Stopped) { end_by({.kind = Kind::SpindleStop}, job, loop, out); }
-    if (devices_.mist || devices_.flood) { end_by({.kind = Kind::CoolantOff}, job, loop, out); }
+    for (const ProgramEvent& word : devices_.words_off()) { end_by(word, job, loop, out); }
     switch_off_outputs(job, outcome, loop, out);
 }
 

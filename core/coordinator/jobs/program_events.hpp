@@ -40,8 +40,6 @@ public:
     std::uint32_t from() const { return from_; }
 
 private:
-    using Kind = ProgramEvent::Kind;
-
     void end_by(const ProgramEvent& end, std::uint64_t job, const LoopView& loop, std::vector<PublishedEvent>& out);
     void publish(PublishedEvent event, const LoopView& loop, std::vector<PublishedEvent>& out);
     void publish(const PathEvent& event, PublishedEvent place, const LoopView& loop, std::vector<PublishedEvent>& out);

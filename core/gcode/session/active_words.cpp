@@ -17,11 +17,11 @@ std::string plane_word(gcode::Plane plane) {
     return plane == gcode::Plane::XY ? "G17" : plane == gcode::Plane::ZX ? "G18" : "G19";
 }
 
-std::string spindle_word(gcode::SpindleDirection spindle) {
+std::string spindle_word(SpindleDirection spindle) {
     switch (spindle) {
-        case gcode::SpindleDirection::Forward: return "M3";
-        case gcode::SpindleDirection::Reverse: return "M4";
-        case gcode::SpindleDirection::Stopped: break;
+        case SpindleDirection::Forward: return "M3";
+        case SpindleDirection::Reverse: return "M4";
+        case SpindleDirection::Stopped: break;
     }
     return "M5";
 }

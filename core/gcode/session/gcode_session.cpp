@@ -168,11 +168,7 @@ void GcodeSession::touched(const ProbeTouch& touch) {
 
 void GcodeSession::set_devices(const ProgramDevices& devices) {
     gcode::Modal& modal = memory_.state.modal;
-    switch (devices.spindle) {
-        case ProgramDevices::Spindle::Stopped: modal.spindle = gcode::SpindleDirection::Stopped; break;
-        case ProgramDevices::Spindle::Forward: modal.spindle = gcode::SpindleDirection::Forward; break;
-        case ProgramDevices::Spindle::Reverse: modal.spindle = gcode::SpindleDirection::Reverse; break;
-    }
+    modal.spindle = devices.spindle;
     modal.mist = devices.mist;
     modal.flood = devices.flood;
 }

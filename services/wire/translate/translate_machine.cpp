@@ -13,7 +13,7 @@ static_assert(lockstep_wire_PAUSE_INPUT_TIMEOUT == static_cast<int>(PauseReason:
 static_assert(lockstep_wire_MAX_PAUSE_BYTES == kMaxPauseText && lockstep_wire_MAX_PLACES == kMaxAxes);
 static_assert(lockstep_wire_MAX_RESTS == kMaxRests);
 static_assert(lockstep_wire_MAX_HOLDER_BYTES == kMaxWriterBytes);
-static_assert(lockstep_wire_SPINDLE_REVERSE == static_cast<int>(ProgramDevices::Spindle::Reverse));
+static_assert(lockstep_wire_SPINDLE_REVERSE == static_cast<int>(SpindleDirection::Reverse));
 
 namespace {
 
@@ -121,7 +121,7 @@ PulseOrder pulses_from_wire(const lockstep_wire_MachineState& wire, Checks& chec
 
 ProgramDevices devices_from_wire(const lockstep_wire_MachineState& wire, Checks& check) {
     check.finite("spindle_rpm", wire.spindle_rpm);
-    return {.spindle = check.choice("spindle", wire.spindle, ProgramDevices::Spindle::Reverse),
+    return {.spindle = check.choice("spindle", wire.spindle, SpindleDirection::Reverse),
             .spindle_rpm = wire.spindle_rpm,
             .mist = wire.mist,
             .flood = wire.flood,

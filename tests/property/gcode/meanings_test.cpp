@@ -163,7 +163,7 @@ Reader any_reader(std::uint32_t seed) {
 }
 
 ProgramDevices devices(int number) {
-    using Spindle = ProgramDevices::Spindle;
+    using Spindle = SpindleDirection;
     constexpr std::array kSpindles{Spindle::Stopped, Spindle::Forward, Spindle::Reverse};
     const auto n = static_cast<std::size_t>(number);
     return {.spindle = kSpindles[n % kSpindles.size()],

@@ -149,7 +149,7 @@ protected:
             if (const auto* event = std::get_if<ProgramEvent>(&program_[k].action)) { devices.apply(*event); }
         }
         const auto& move = std::get<ProgramMove>(program_[block].action);
-        const bool burns = devices.spindle == ProgramDevices::Spindle::Reverse && !move.rapid;
+        const bool burns = devices.spindle == SpindleDirection::Reverse && !move.rapid;
         return Settings{burns ? devices.spindle_rpm / 1000 : 0, move.rapid ? 1 : move.feed_mm_s};
     }
 

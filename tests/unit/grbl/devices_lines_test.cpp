@@ -6,7 +6,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-using Spindle = ProgramDevices::Spindle;
+using Spindle = SpindleDirection;
 
 MachineSetup machine_with_devices() {
     MachineSetup machine = small_machine();

@@ -8,7 +8,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using Device = ProgramEvent::Kind;
-using Spindle = ProgramDevices::Spindle;
+using Spindle = SpindleDirection;
 
 class Devices : public Sender {
 protected:

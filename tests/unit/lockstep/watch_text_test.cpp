@@ -79,7 +79,7 @@ no alarms
 TEST(Watch, ShowsWhatProgramsHaveSwitchedOn) {
     proto::StatusReport status = cutting();
     *status.mutable_devices() =
-        devices_report({.spindle = ProgramDevices::Spindle::Reverse, .spindle_rpm = 900, .mist = true}).value();
+        devices_report({.spindle = SpindleDirection::Reverse, .spindle_rpm = 900, .mist = true}).value();
     EXPECT_THAT(watch_text(status, kScale, Ink::Plain), HasSubstr("\nspindle reverse 900 rpm, mist\naxis "));
     EXPECT_THAT(watch_line(status, kScale), HasSubstr("; spindle reverse 900 rpm, mist"));
     *status.mutable_devices() = devices_report({.outputs = ~0ull}).value();

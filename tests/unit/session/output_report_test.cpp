@@ -33,7 +33,7 @@ AxisState device_with(std::uint16_t on, double share) {
     return {.outputs = on, .analog = {static_cast<std::uint16_t>(share * kFullAnalogLevel)}};
 }
 
-const ProgramDevices kEngraving{.spindle = ProgramDevices::Spindle::Reverse, .spindle_rpm = 300, .flood = true};
+const ProgramDevices kEngraving{.spindle = SpindleDirection::Reverse, .spindle_rpm = 300, .flood = true};
 
 TEST(OutputReport, HasWhatTheDeviceReportsOfEachOutputAndWhatTheProgramAsksFor) {
     const MachineState machine{.devices = kEngraving};

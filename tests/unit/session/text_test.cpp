@@ -61,7 +61,7 @@ TEST(StatusText, ShowsWhatProgramsHaveSwitchedOn) {
     proto::StatusReport status = running();
     EXPECT_THAT(status_text(status), Not(HasSubstr("devices")));
     const ProgramDevices devices{
-        .spindle = ProgramDevices::Spindle::Forward, .spindle_rpm = 12'000, .flood = true, .tool = 3, .outputs = 0b101};
+        .spindle = SpindleDirection::Forward, .spindle_rpm = 12'000, .flood = true, .tool = 3, .outputs = 0b101};
     *status.mutable_devices() = devices_report(devices).value();
     EXPECT_THAT(status_text(status), HasSubstr("devices: spindle forward 12000 rpm, flood, tool 3, outputs 0 2\n"));
     *status.mutable_devices() = devices_report({.outputs = ~0ull}).value();
@@ -80,7 +80,7 @@ TEST(DevicesReport, HasOnlyWhatIsOn) {
         *status.mutable_devices() = devices_report(devices).value();
         return devices_text(status);
     };
-    EXPECT_EQ(text({.spindle = ProgramDevices::Spindle::Reverse, .spindle_rpm = 800.4}), "spindle reverse 800 rpm");
+    EXPECT_EQ(text({.spindle = SpindleDirection::Reverse, .spindle_rpm = 800.4}), "spindle reverse 800 rpm");
     EXPECT_EQ(text({.mist = true, .flood = true}), "mist, flood");
     EXPECT_EQ(text({.tool = 7}), "tool 7");
     EXPECT_EQ(text({.outputs = 1ull << 63}), "output 63");

@@ -207,7 +207,7 @@ TEST_F(Events, AStopSwitchesSpindleAndCoolantOffAndLeavesOutputs) {
     its.blocks.insert(its.blocks.begin(), event(100, EventKind::OutputOn, 5));
     const Reply reply = run(its);
     ASSERT_TRUE(vm.advance_until([&] { return vm.state()->devices.flood; }, Ticks{5'000'000}));
-    ASSERT_EQ(vm.state()->devices.spindle, ProgramDevices::Spindle::Forward);
+    ASSERT_EQ(vm.state()->devices.spindle, SpindleDirection::Forward);
     ASSERT_EQ(ask(CommandKind::Stop).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 5));
     wait(0.01);

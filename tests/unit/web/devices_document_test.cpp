@@ -20,7 +20,7 @@ TEST(DevicesDocument, ShowsThatAllIsOff) {
 }
 
 TEST(DevicesDocument, ShowsWhatIsOn) {
-    const ProgramDevices devices{.spindle = ProgramDevices::Spindle::Reverse,
+    const ProgramDevices devices{.spindle = SpindleDirection::Reverse,
                                  .spindle_rpm = 799.96,
                                  .mist = true,
                                  .flood = true,

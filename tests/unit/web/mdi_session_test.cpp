@@ -85,7 +85,7 @@ TEST_F(Mdi, AResetDropsTheLineThatWaits) {
 }
 
 TEST_F(Mdi, SpindleAndCoolantAreAsTheMachineReports) {
-    snapshot.machine->value.devices = {.spindle = ProgramDevices::Spindle::Forward, .flood = true};
+    snapshot.machine->value.devices = {.spindle = SpindleDirection::Forward, .flood = true};
     mdi.see(snapshot);
     EXPECT_THAT(words(), AllOf(Contains("M3"), Contains("M8")));
     snapshot.machine->value.devices = {};

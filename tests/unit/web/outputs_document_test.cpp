@@ -36,7 +36,7 @@ Json analog(const Json& value, double asked) {
 
 TEST(OutputsDocument, HasWhatTheDeviceReportsAndWhatTheProgramAsksFor) {
     Snapshot snapshot = snapshot_at_rest();
-    snapshot.machine->value.devices = {.spindle = ProgramDevices::Spindle::Forward, .spindle_rpm = 250, .flood = true};
+    snapshot.machine->value.devices = {.spindle = SpindleDirection::Forward, .spindle_rpm = 250, .flood = true};
     EXPECT_EQ(state_document(snapshot, with_outputs(), nullptr, {}, 1)["outputs"],
               (Json{{"laser", analog(0.0, 0.25)}, {"air", digital(false, 1)}}));
     snapshot.axes[0].state->value.analog[0] = kFullAnalogLevel / 4 + 1;

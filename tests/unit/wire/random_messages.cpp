@@ -103,7 +103,7 @@ StaticVector<FrameRest, kMaxRests> RandomMessages::rests() {
 }
 
 ProgramDevices RandomMessages::devices() {
-    return {.spindle = static_cast<ProgramDevices::Spindle>(index(3)),
+    return {.spindle = static_cast<SpindleDirection>(index(3)),
             .spindle_rpm = static_cast<double>(between(0, 1'000'000)) / 7,
             .mist = coin(),
             .flood = coin(),
