@@ -19,7 +19,7 @@ struct LinkName {
     std::uint16_t port = 0;      // of Tcp
     std::uint32_t speed_hz = 0;  // of Spi
 
-    /// Of an SPI whose link names no speed. Every design bears it.
+    /// The speed of an SPI whose link names none. Every design works at it.
     static constexpr std::uint32_t kSpiSpeed_hz = 5'000'000;
 
     /// As in the machine's file.

@@ -15,10 +15,10 @@ namespace lockstep::gcode {
 
 inline constexpr std::size_t kSystems = 9;  // G54 to G59.3
 
-enum class Plane : std::uint8_t { XY, ZX, YZ };                            // G17 G18 G19
-enum class FeedMode : std::uint8_t { PerMinute, InverseTime };             // G94 G93
-enum class Side : std::uint8_t { None, Left, Right };                      // G40 G41 G42
-inline constexpr int kNoMotion = -1;                                       // after G80, and at the start
+enum class Plane : std::uint8_t { XY, ZX, YZ };                 // G17 G18 G19
+enum class FeedMode : std::uint8_t { PerMinute, InverseTime };  // G94 G93
+enum class Side : std::uint8_t { None, Left, Right };           // G40 G41 G42
+inline constexpr int kNoMotion = -1;                            // after G80, and at the start
 
 /// The modes: a word sets them, and they hold for the lines after it.
 struct Modal {

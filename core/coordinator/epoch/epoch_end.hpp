@@ -19,10 +19,10 @@ struct EpochEnd {
         OffTouch,      // a motor does not rest where its pulses had to cease at the touch
     };
     Kind kind = Kind::Complete;
-    MotorIndex motor;  // the one concerned; meaningless if the machine rests on its path
+    MotorIndex motor;  // the motor that is elsewhere; meaningless if the machine rests on its path
     FrameNumber ran = 0;
     PathPlace place;           // on the program
-    MotorPositions positions;  // the exact ones
+    MotorPositions positions;  // exactly where the motors rest
     bool has_pulses = false;   // devices were told the places of the newest M69
 
     bool rests_on_path() const { return kind == Kind::Complete || kind == Kind::Interrupted; }

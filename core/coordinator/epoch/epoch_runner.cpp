@@ -18,10 +18,10 @@ ProgramDevices devices_at(std::uint32_t block, const SwitchedBy& switched, const
 
 /// The axes' reports of an epoch. All axes that are present rest.
 struct Rested {
-    std::optional<FrameNumber> ran;     // the last frame of those whose frames ended
-    std::optional<MotorIndex> differs;  // from them
-    MotorSet ceased;                    // their pulses ceased at the touch, before their frames ended
-    FrameNumber ceased_in = 0;          // the last frame of these
+    std::optional<FrameNumber> ran;     // the last frame of the motors whose frames ended
+    std::optional<MotorIndex> differs;  // a motor whose last frame is another one
+    MotorSet ceased;                    // motors whose pulses ceased at the touch, before their frames ended
+    FrameNumber ceased_in = 0;          // the last frame of these motors
     MotorIndex ceased_last;
 
     void end(MotorIndex motor, FrameNumber its) {

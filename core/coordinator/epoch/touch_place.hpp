@@ -12,7 +12,7 @@
 
 namespace lockstep {
 
-/// A motor that rests elsewhere, in steps.
+/// A motor that does not rest where it should; places in steps.
 struct OffTouch {
     MotorIndex motor;
     std::int64_t rests = 0;

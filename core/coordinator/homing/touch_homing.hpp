@@ -2,8 +2,8 @@
 // motors of several devices move the axis. The sequence is that of an axis that homes by itself, but its moves are
 // paths of all axes that end at a touch of the switch's input (docs/decisions/motion/homing-by-touch.md).
 //
-// Nobody knows where the axis is, and each path must lie within its travel. So before each move the axis is assumed to
-// be at the end of its travel from which the move leads to the other one.
+// The place of the axis is not known, and each path must lie within its travel. So before each move the axis is assumed
+// to be at the end of its travel from which the move leads to the other one.
 #pragma once
 
 #include <cstdint>
@@ -28,21 +28,21 @@ public:
     HomingStage stage() const { return homing_.stage(); }
 
     enum class Next : std::uint8_t {
-        Wait,    // until it is known whether the switch is closed
-        Assume,  // that the motors of the axis are at places(); then comes a move
-        Move,    // on program()
-        End,     // they are truly at places()
-        Fail,    // by fault()
+        Wait,    // until the state of the switch is known
+        Assume,  // order the motors of the axis to assume places(); a move follows
+        Move,    // run program()
+        End,     // the same, and these places are true: homing by touch is done
+        Fail,    // with fault()
     };
     /// Returns what to do next. Call it only while nothing moves and no order is open.
     Next next(const LoopView& loop);
-    /// Where the motors are; only those of the axis change.
+    /// Where the motors are assumed to be, or truly are. Only motors of the axis change.
     const MotorCounts& places() const { return places_; }
     FaultCode fault() const { return fault_; }
 
     /// The next move, from where the axes are assumed to be.
     Program program(const LoopView& loop);
-    /// Call it when this move has ended at rest. `probe`: how, if it ends at a touch.
+    /// Call it when this move has ended at rest. `probe`: the result of a move that ends at a touch.
     void moved(const std::optional<ProbeResult>& probe, const LoopView& loop);
 
 private:

@@ -18,7 +18,7 @@ struct Braking::Way {
     }
 
     std::vector<double> direction;  // of length 1
-    std::vector<double> low;        // it lies between these
+    std::vector<double> low;        // the way lies between these places
     std::vector<double> high;
 };
 

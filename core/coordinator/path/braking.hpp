@@ -15,25 +15,25 @@ namespace lockstep {
 
 class Braking {
 public:
-    /// The same at any speed, in mm/s^2.
+    /// Brakes with this deceleration at any speed, in mm/s^2.
     explicit Braking(double mm_s2) : rows_{{mm_s2, 0}} {}
-    /// Of a move of these axes of the machine; the other ones rest anywhere in their travel.
+    /// How a move of these axes of the machine brakes, wherever the other axes rest in their travel.
     static Braking of_move(const MachineConfig& machine, std::span<const AxisIndex> axes,
                            std::span<const double> from_mm, std::span<const double> to_mm);
-    /// Of any move of one axis, while the others rest anywhere.
+    /// How any move of one axis brakes, wherever the other axes rest.
     static Braking of_axis(const MachineConfig& machine, AxisIndex axis);
 
-    /// mm/s^2 along the way; 0: at this speed no deceleration is sure.
+    /// The deceleration along the way in mm/s^2; 0: at this speed no deceleration is sure.
     double mm_s2(double speed_mm_s) const;
     /// The deceleration does not depend on the speed.
     bool is_constant() const;
 
 private:
     struct Way;
-    /// The limit of an axis or a motor.
+    /// The deceleration that the limit of an axis or a motor leaves.
     struct Row {
         double at_rest_mm_s2 = 0;
-        double per_square = 0;  // less for each (mm/s)^2, 1/mm
+        double per_square = 0;  // 1/mm: so much less for each (mm/s)^2 of the speed
     };
 
     Braking(const MachineConfig& machine, const Way& way);

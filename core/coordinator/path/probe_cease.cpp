@@ -18,7 +18,7 @@ double seconds_until_ceased(const MachineConfig& machine, const InputConfig& inp
     return input.debounce_ms * 1e-3 + 2 / machine.ticks_per_second();
 }
 
-/// One of them, or inputs of one wire.
+/// The inputs see the same switch: there is only one input, or all are of one wire.
 bool are_one_switch(const Inputs& inputs) {
     const auto is_of_wire = [&](const InputConfig* input) { return input->wire == inputs.front()->wire; };
     return inputs.size() == 1 || (!inputs.front()->wire.empty() && std::ranges::all_of(inputs, is_of_wire));
@@ -31,8 +31,8 @@ double greatest_gain(const LinearMap& map, MotorIndex motor, AxisSet axes) {
     return gain;
 }
 
-/// More motors than axes: an axis has several, so that their counts must agree. By clocks of their own they would cease
-/// within the errors of these clocks, and might rest a step apart.
+/// There are more motors than axes, so the counts of an axis's motors must agree. With clocks of their own their pulses
+/// would cease within the errors of these clocks, and they might rest a step apart.
 bool must_count_one_clock(MotorSet motors, const Kinematics& kinematics) {
     AxisSet axes;
     for (const MotorIndex m : motors) { axes |= kinematics.axes_of_motor(m); }

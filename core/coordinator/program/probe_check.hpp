@@ -14,8 +14,8 @@ namespace lockstep {
 
 /// How far a move may go on behind a touch if a veto ends it, in mm. From the touch on, its speed is kept for at most
 /// the debounce of the input, two slots until the axis's state carries the veto, a stall of its process, the lease, and
-/// a frame (docs/protocol.md). Then the tail brakes it. `feed_mm_s`: along the move. Infinite: nobody knows how well
-/// the move brakes at this feed.
+/// a frame (docs/protocol.md). Then the tail brakes it. `feed_mm_s`: along the move. Infinite if at
+/// this feed no deceleration is sure.
 double overshoot_mm(const MachineConfig& machine, const InputConfig& input, double feed_mm_s, const Braking& braking);
 
 /// The greatest feed for which overshoot_mm() is at most max_overshoot_mm; 0: it never is.
