@@ -19,6 +19,8 @@ FORBIDDEN_IN_CORE = re.compile(
 # Callers decide by the errors of core, so an error is a type (docs/decisions/code/typed-errors-in-core.md).
 SENTENCE = re.compile(r"std::(un)?expected<.*std::string>[ (;]")
 MAY_RETURN_SENTENCES = {"core/coordinator/program/row_store.hpp"}
+# A remedy is an action (core/faults.hpp: Remedy). Its words are the client's: a shell, a page, a sender.
+SHELL_COMMAND = re.compile(r'^(?!\s*//)[^/]*"[^"]*\blockstep [a-z]')
 MAX_LINES = 500
 MAX_WIDTH = 120  # of Verilog; clang-format knows the width of C++
 UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX)\b")
@@ -41,6 +43,8 @@ def breaches(root, layer, path):
             yield f"{name}:{number}: core has no I/O, threads or clocks: {line.strip()}"
         if layer == "core" and SENTENCE.search(line) and name not in MAY_RETURN_SENTENCES:
             yield f"{name}:{number}: an error of core is a type with values, not a sentence: {line.strip()}"
+        if layer == "core" and SHELL_COMMAND.search(line):
+            yield f"{name}:{number}: core names actions, not commands of the shell: {line.strip()}"
         if UNFINISHED.search(line):
             yield f"{name}:{number}: unfinished: {line.strip()}"
         if path.suffix in (".v", ".vh"):

@@ -114,7 +114,7 @@ CommandResult check_place(const AxisCounts& place, const LoopView& loop) {
     return refuse(
         FaultCode::AwayFromPause,
         "axes were moved in the pause, but the job continues only from the place where it paused. Way back: " +
-            text_of_way(way) + ". To let the machine return on this way and continue: lockstep resume --yes");
+            text_of_way(way));
 }
 
 CommandResult begin_return(const activity::Paused& pause, JobLifecycle& jobs, CoordinatorLoop& loop) {
@@ -155,7 +155,7 @@ CommandResult interrupt_alone(Intent intent, JobLifecycle& jobs, CoordinatorLoop
     const bool corrects = is_correcting(jobs.activity());
     if (intent == Intent::Hold && jobs.activity().is<activity::OwnMoves>() && !corrects) {
         return refuse(FaultCode::Busy,
-                      "moves of axes on their own cannot be held and resumed; stop them: lockstep stop");
+                      "moves of axes on their own cannot be held and resumed; they can only be stopped");
     }
     halt_axes(jobs.activity(), loop);
     jobs.activity().bring_to_rest(corrects ? intent : Intent::Stop, loop.out);

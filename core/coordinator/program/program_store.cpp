@@ -108,8 +108,7 @@ void ProgramStore::tend(Slot now, Slot missed) {
         entry.program->cut({FaultCode::SenderSilent, std::nullopt,
                             "nothing was received from the program's sender for " +
                                 std::to_string(std::lround(kSenderSilence_s)) +
-                                " s; the machine runs the part that it has, and rests; then continue: lockstep run "
-                                "FILE --from-line LINE"});
+                                " s; the machine runs the part that it has, and rests"});
     }
 }
 

@@ -4,7 +4,7 @@ namespace lockstep {
 
 std::string text_of(const ValuesRefusal& refusal) {
     if (refusal.why == ValuesRefusal::Why::JobInProgress) {
-        return "a job in progress uses these values; wait until it pauses (M0, M6) or has ended, or: lockstep stop";
+        return "a job in progress uses these values; wait until it pauses (M0, M6) or has ended, or stop it";
     }
     return "the machine's offsets or tools have changed since this command read them: revision " +
            std::to_string(refusal.read) + ", now " + std::to_string(refusal.now) + "; give the command again";

@@ -225,7 +225,7 @@ TEST_F(OwnMoves, ImpossibleMovesAreRefusedBeforeAnythingMoves) {
     EXPECT_EQ(why(ask(CommandKind::Reset)), FaultCode::Busy);
     const Reply hold = ask(CommandKind::Hold);
     EXPECT_EQ(why(hold), FaultCode::Busy);
-    EXPECT_NE(hold.text.find("lockstep stop"), std::string::npos) << hold.text;
+    EXPECT_NE(hold.text.find("they can only be stopped"), std::string::npos) << hold.text;
     ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
     EXPECT_EQ(counts()[0], 9'500);
 }
