@@ -50,7 +50,7 @@ void AxisWatch::look_at(MotorIndex motor, AxisRoster& axes, JobLifecycle& jobs, 
     }
 }
 
-void lose_outputs(MotorIndex motor, JobLifecycle& jobs, CoordinatorLoop& loop) {
+void lose_outputs(MotorIndex motor, JobLifecycle& jobs, PublishingLoop& loop) {
     const auto is_of_motor = [&](const OutputConfig& output) {
         return output.motor == motor_name(loop.machine, motor);
     };
@@ -58,7 +58,7 @@ void lose_outputs(MotorIndex motor, JobLifecycle& jobs, CoordinatorLoop& loop) {
     jobs.path().events().switch_off_outputs(jobs.count().number(), JobOutcome::Failed, loop, loop.out.events);
 }
 
-void wait_for_axes(JobLifecycle& jobs, CoordinatorLoop& loop) {
+void wait_for_axes(JobLifecycle& jobs, PublishingLoop& loop) {
     if (jobs.activity().phase() != MachinePhase::Idle) { return; }
     jobs.activity().become(MachineEvent::AxisLacking, activity::Waiting{}, loop.out);
 }

@@ -26,8 +26,8 @@ private:
 };
 
 /// An axis without its process cannot keep its outputs, and another process must not switch them on again by itself.
-void lose_outputs(MotorIndex motor, JobLifecycle& jobs, CoordinatorLoop& loop);
+void lose_outputs(MotorIndex motor, JobLifecycle& jobs, PublishingLoop& loop);
 /// Nothing begins before all axes are ready again.
-void wait_for_axes(JobLifecycle& jobs, CoordinatorLoop& loop);
+void wait_for_axes(JobLifecycle& jobs, PublishingLoop& loop);
 
 }  // namespace lockstep

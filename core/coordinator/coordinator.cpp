@@ -65,10 +65,9 @@ Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::u
 CoordinatorOutputs& Coordinator::step(const CoordinatorInputs& inputs) {
     out_.clear();
     const Slot slot = rules::slot_of(inputs.now, slot_);
-    CoordinatorLoop loop{{machine_, kinematics_, axes_, programs_, inputs.now, slot, gate_.next(slot),
-                          ownership_.term(), is_late(inputs.now)},
-                         orders_,
-                         out_};
+    const LoopView view{machine_,          kinematics_,        axes_, programs_, inputs.now, slot, gate_.next(slot),
+                        ownership_.term(), is_late(inputs.now)};
+    CoordinatorLoop loop{{view, out_}, orders_};
     axes_.forgive(gate_.missed(slot), slot);
     receive(inputs, loop);
     change_owner(loop);
@@ -111,7 +110,7 @@ void Coordinator::receive(const AxisState& state, CoordinatorLoop& loop) {
     if (state.term == ownership_.term()) { orders_.catch_up(state, has_open_order); }
 }
 
-void Coordinator::change_owner(CoordinatorLoop& loop) {
+void Coordinator::change_owner(PublishingLoop& loop) {
     const Ownership::Change change = ownership_.evaluate(loop.now, loop.slot, axes_.views());
     loop.term = ownership_.term();
     switch (change) {
@@ -122,7 +121,7 @@ void Coordinator::change_owner(CoordinatorLoop& loop) {
 }
 
 /// Keeps the overrides and the writer. The job of the last owner is continued or ended where the axes came to rest.
-void Coordinator::take_over(CoordinatorLoop& loop) {
+void Coordinator::take_over(PublishingLoop& loop) {
     loop.notice({CoordinatorNotice::Kind::Claimed, FaultCode::None, loop.term.number});
     orders_.restart();
     const auto& other = ownership_.other_owner();
@@ -130,7 +129,7 @@ void Coordinator::take_over(CoordinatorLoop& loop) {
     inheritance_.take_over(other, jobs_, loop);
 }
 
-void Coordinator::stand_down(CoordinatorLoop& loop) {
+void Coordinator::stand_down(PublishingLoop& loop) {
     loop.notice({CoordinatorNotice::Kind::StoodDown, FaultCode::None, loop.term.number});
     jobs_.stand_down(loop);
     lease_.drop();
@@ -138,7 +137,7 @@ void Coordinator::stand_down(CoordinatorLoop& loop) {
 }
 
 /// A standby publishes nothing that moves an axis.
-void Coordinator::stand_by(CoordinatorLoop& loop) {
+void Coordinator::stand_by(PublishingLoop& loop) {
     activity::Standby& standby = *jobs_.activity().as<activity::Standby>();
     inbox_.take_each([&](const Command& command) { refuse_as_standby(command, loop.slot, standby, inbox_); });
     axes_.forget_missing(loop.slot);
@@ -156,8 +155,10 @@ void Coordinator::own(CoordinatorLoop& loop) {
     if (axes_.without_device()) { wait_for_axes(jobs_, loop); }
     watch_.look(axes_, jobs_, loop);
     commands::hold_for_inputs(jobs_, loop);
-    touch_watch_.look(jobs_, loop);
-    switch_watch_.look(jobs_, loop);
+    for (const std::size_t input : touch_watch_.look(jobs_.activity(), loop)) {
+        commands::rest_at_touch(input, jobs_, loop);
+    }
+    if (const auto fault = switch_watch_.look(jobs_.activity(), loop)) { jobs_.fail(*fault, loop); }
     inbox_.take_each([&](const Command& command) { answer(command, loop); });
     advance_jogs(jobs_, loop);
     if (!gate_.enter(loop.slot)) { return; }
@@ -216,7 +217,7 @@ void Coordinator::advance(CoordinatorLoop& loop) {
 }
 
 /// Reuses the memory of the last state's lease.
-void Coordinator::report(CoordinatorLoop& loop) const {
+void Coordinator::report(PublishingLoop& loop) const {
     const MachineFault fault = jobs_.activity().fault();
     MachineState& state = loop.out.state.renew([&](MachineState&& old) {
         return MachineState{.term = loop.term,

@@ -43,10 +43,10 @@ private:
     bool is_late(Tick now);
     void receive(const CoordinatorInputs& inputs, CoordinatorLoop& loop);
     void receive(const AxisState& state, CoordinatorLoop& loop);
-    void change_owner(CoordinatorLoop& loop);
-    void take_over(CoordinatorLoop& loop);
-    void stand_down(CoordinatorLoop& loop);
-    void stand_by(CoordinatorLoop& loop);
+    void change_owner(PublishingLoop& loop);
+    void take_over(PublishingLoop& loop);
+    void stand_down(PublishingLoop& loop);
+    void stand_by(PublishingLoop& loop);
 
     // Called on an owner only.
     void own(CoordinatorLoop& loop);
@@ -55,7 +55,7 @@ private:
     bool answer_about_lease(const Command& command, CoordinatorLoop& loop);
     void advance(CoordinatorLoop& loop);
 
-    void report(CoordinatorLoop& loop) const;
+    void report(PublishingLoop& loop) const;
 
     MachineConfig machine_;
     Kinematics kinematics_;

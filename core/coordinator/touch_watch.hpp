@@ -2,17 +2,19 @@
 // its path, as the inputs ask for it.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
-#include "core/coordinator/jobs/job_lifecycle.hpp"
+#include "core/coordinator/jobs/activity.hpp"
 
 namespace lockstep {
 
 class TouchWatch {
 public:
-    /// Call it in each loop. Only a change counts, so that the axes can be moved away from what they touch.
-    void look(JobLifecycle& jobs, CoordinatorLoop& loop);
+    /// Call it in each loop. Returns the machine's inputs that touched. Only a change counts, so that the axes can be
+    /// moved away from what they touch.
+    std::vector<std::size_t> look(const MachineActivity& activity, const LoopView& loop);
 
 private:
     bool has_just_closed(std::size_t input, const LoopView& loop);

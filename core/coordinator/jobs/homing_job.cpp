@@ -116,7 +116,7 @@ void advance_touch(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoop
 }
 
 /// Those of several motors of an axis that have switches.
-MotorSet approaching_motors(AxisSet axes, const CoordinatorLoop& loop) {
+MotorSet approaching_motors(AxisSet axes, const LoopView& loop) {
     MotorSet motors;
     for (const AxisIndex i : axes) {
         const AxisConfig& axis = loop.machine.axes[i];
@@ -129,7 +129,7 @@ MotorSet approaching_motors(AxisSet axes, const CoordinatorLoop& loop) {
 }  // namespace
 
 void go_on_homing(activity::Homing& homing, const PathTask& task, bool probed, JobLifecycle& jobs,
-                  CoordinatorLoop& loop) {
+                  PublishingLoop& loop) {
     if (probed) { loop.out.jobs.push_back(job_events::probed(task, jobs.path())); }
     loop.out.jobs.push_back(job_events::ended(task.job, JobOutcome::Done));
     if (homing.touch) { homing.touch->moved(probed ? jobs.path().probing().result() : std::nullopt, loop); }

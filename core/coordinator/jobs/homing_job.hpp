@@ -11,6 +11,6 @@ bool home_next_group(activity::Homing& homing, CoordinatorLoop& loop);
 void advance_homing(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoop& loop);
 /// A move of axes that home by touch is over. `probed`: it ended at a touch.
 void go_on_homing(activity::Homing& homing, const PathTask& task, bool probed, JobLifecycle& jobs,
-                  CoordinatorLoop& loop);
+                  PublishingLoop& loop);
 
 }  // namespace lockstep

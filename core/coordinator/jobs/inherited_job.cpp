@@ -6,7 +6,7 @@
 
 namespace lockstep {
 
-void Inheritance::take_over(const std::optional<MachineState>& last, JobLifecycle& jobs, CoordinatorLoop& loop) const {
+void Inheritance::take_over(const std::optional<MachineState>& last, JobLifecycle& jobs, PublishingLoop& loop) const {
     const std::optional<Slot> interrupted = jobs.activity().as<activity::Standby>()->interrupted;
     activity::Waiting waiting;
     if (last && last->job >= jobs.count().number()) {

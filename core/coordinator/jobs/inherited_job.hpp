@@ -16,7 +16,7 @@ public:
 
     /// This coordinator owns the machine now. `last`: the newest state of the last owner. Its job is kept until it can
     /// be continued, or ended if it cannot.
-    void take_over(const std::optional<MachineState>& last, JobLifecycle& jobs, CoordinatorLoop& loop) const;
+    void take_over(const std::optional<MachineState>& last, JobLifecycle& jobs, PublishingLoop& loop) const;
     /// Call it when every axis follows this coordinator and rests. Continues an inherited job, as soon as the program
     /// is at hand, or leaves Waiting without one.
     static void leave_waiting(JobLifecycle& jobs, CoordinatorLoop& loop);

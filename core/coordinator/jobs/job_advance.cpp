@@ -45,7 +45,7 @@ void settle_complete(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop
 }
 
 /// After a touch, the job's line is the one at which the tool touched.
-void fail_on_path(const activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, CoordinatorLoop& loop) {
+void fail_on_path(const activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, PublishingLoop& loop) {
     const MachineFault fault = path.fault;
     const Block* const block = path.task.job.program->block(end.place.block);
     const auto line = block != nullptr ? block->line : std::nullopt;

@@ -7,6 +7,7 @@
 #include "core/coordinator/jobs/homing_job.hpp"
 #include "core/coordinator/path/coordination.hpp"
 #include "core/coordinator/path/return_way.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/protocol/names.hpp"
 
 namespace lockstep::commands {
@@ -132,7 +133,7 @@ CommandResult begin_return(const activity::Paused& pause, JobLifecycle& jobs, Co
 }
 
 /// New keys of a client whose jog is under way.
-CommandResult press_on_path(const Command& command, activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& loop) {
+CommandResult press_on_path(const Command& command, activity::OnPath& path, JobLifecycle& jobs, PublishingLoop& loop) {
     PathJog& jog = *path.jog;
     if (!jog.is_of(command.client)) {
         return command.jogs.empty() ? CommandResult{} : refuse(FaultCode::Busy, "another client jogs axes");
@@ -163,7 +164,7 @@ CommandResult interrupt_alone(Intent intent, JobLifecycle& jobs, CoordinatorLoop
 }
 
 /// A job that waits for an input waits for a person from now on.
-void wait_for_person(PauseReason why, MachineActivity& activity, CoordinatorLoop& loop) {
+void wait_for_person(PauseReason why, MachineActivity& activity, PublishingLoop& loop) {
     activity::Paused paused = check_found(activity.as<activity::Paused>(), "a job that waits for an input pauses");
     paused.why.reason = why;
     paused.watch.reset();
@@ -427,6 +428,17 @@ void hold_for_inputs(JobLifecycle& jobs, CoordinatorLoop& loop) {
     loop.notice({CoordinatorNotice::Kind::HeldByInput, FaultCode::None, *input});
     const bool cannot_be_held = activity.is<activity::OwnMoves>() && !is_correcting(activity);
     (void)interrupt(cannot_be_held ? Intent::Stop : Intent::Hold, jobs, loop);
+}
+
+void rest_at_touch(std::size_t input, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    const InputConfig& config = loop.machine.inputs[input];
+    loop.notice({CoordinatorNotice::Kind::TouchInMotion, FaultCode::None, input});
+    if (config.at_touch_in_motion == TouchInMotion::Fault) {
+        const auto motor = motor_named(loop.machine, config.motor);
+        return jobs.fail({FaultCode::TouchInMotion, motor.value_or(MotorIndex{})}, loop);
+    }
+    const bool can_hold = jobs.activity().is<activity::OnPath>();
+    (void)interrupt(can_hold ? Intent::Hold : Intent::Stop, jobs, loop);
 }
 
 void lose_client(Identity client, JobLifecycle& jobs, CoordinatorLoop& loop) {

@@ -40,6 +40,9 @@ void go_on_at_input(JobLifecycle& jobs, CoordinatorLoop& loop);
 /// it cannot be held. A job that waits for an input is held.
 void hold_for_inputs(JobLifecycle& jobs, CoordinatorLoop& loop);
 
+/// An input of a probe touched in a motion that does not probe with it. What moves comes to rest as the input asks.
+void rest_at_touch(std::size_t input, JobLifecycle& jobs, CoordinatorLoop& loop);
+
 /// The client with the lease fell silent. Its job on a path runs on or is held, as configured.
 void lose_client(Identity client, JobLifecycle& jobs, CoordinatorLoop& loop);
 /// The client has given the lease back: its job runs on without it.

@@ -13,7 +13,7 @@ std::uint64_t number_of(std::optional<std::int32_t> line) { return static_cast<s
 
 /// Records the begin of a job in the pause of another one.
 MachineJob begin_aside(const MachineJob& paused, JobKind kind, std::shared_ptr<const KnownProgram> program,
-                       const AxisCounts& start, JobCount& count, CoordinatorLoop& loop) {
+                       const AxisCounts& start, JobCount& count, PublishingLoop& loop) {
     const MachineJob job{.number = count.begin_in_pause(),
                          .kind = kind,
                          .program_id = {},
@@ -26,7 +26,7 @@ MachineJob begin_aside(const MachineJob& paused, JobKind kind, std::shared_ptr<c
 }  // namespace
 
 MachineJob JobLifecycle::begin(JobKind kind, const Command& command, std::shared_ptr<const KnownProgram> program,
-                               const AxisCounts& start, CoordinatorLoop& loop) {
+                               const AxisCounts& start, PublishingLoop& loop) {
     const bool is_path = kind == JobKind::Run || kind == JobKind::Move;
     const MachineJob job{.number = count_.begin(loop.term),
                          .kind = kind,
@@ -38,7 +38,7 @@ MachineJob JobLifecycle::begin(JobKind kind, const Command& command, std::shared
 }
 
 MachineJob JobLifecycle::begin_in_pause(JobKind kind, std::shared_ptr<const KnownProgram> program,
-                                        const AxisCounts& start, CoordinatorLoop& loop) {
+                                        const AxisCounts& start, PublishingLoop& loop) {
     const MachineJob& paused = check_found(activity_.job(), "a job in a pause begins while another one pauses");
     return begin_aside(paused, kind, std::move(program), start, count_, loop);
 }
@@ -61,7 +61,7 @@ void JobLifecycle::follow(PathTask task, const PathNext& next, std::optional<act
     finish(task.job, JobOutcome::Done, loop);
 }
 
-void JobLifecycle::pause(activity::Paused paused, CoordinatorLoop& loop) {
+void JobLifecycle::pause(activity::Paused paused, PublishingLoop& loop) {
     if (const auto& wait = paused.why.wait) {
         const Ticks limit{std::llround(wait->seconds * loop.machine.ticks_per_second())};
         paused.why.reason = PauseReason::Input;
@@ -91,13 +91,13 @@ void JobLifecycle::end(JobOutcome outcome, CoordinatorLoop& loop) {
     pause != nullptr ? end_in_pause(job, std::move(*pause), outcome, loop) : finish(job, outcome, loop);
 }
 
-void JobLifecycle::note_end(const MachineJob& job, JobOutcome outcome, CoordinatorLoop& loop) {
+void JobLifecycle::note_end(const MachineJob& job, JobOutcome outcome, PublishingLoop& loop) {
     if (outcome != JobOutcome::Done) { path_.events().switch_off(job.number, outcome, loop, loop.out.events); }
     loop.out.jobs.push_back(job_events::ended(job, outcome));
     count_.end(outcome);
 }
 
-void JobLifecycle::finish(const MachineJob& job, JobOutcome outcome, CoordinatorLoop& loop) {
+void JobLifecycle::finish(const MachineJob& job, JobOutcome outcome, PublishingLoop& loop) {
     note_end(job, outcome, loop);
     activity_.become(MachineEvent::JobEnds, activity::Idle{}, loop.out);
 }
@@ -116,7 +116,7 @@ void JobLifecycle::end_in_pause(const MachineJob& job, activity::Paused pause, J
 }
 
 void JobLifecycle::end_early(const MachineJob& job, std::optional<std::int32_t> line, FaultCode why,
-                             CoordinatorLoop& loop) {
+                             PublishingLoop& loop) {
     finish(job, JobOutcome::Stopped, loop);
     count_.cut(line, why);
     loop.notice({CoordinatorNotice::Kind::ProgramCut, why, number_of(line)});
@@ -130,7 +130,7 @@ void JobLifecycle::fail(const MachineFault& fault, CoordinatorLoop& loop) {
     activity_.abort(fault, loop.out);
 }
 
-void JobLifecycle::fail_at_rest(const MachineFault& fault, CoordinatorLoop& loop) {
+void JobLifecycle::fail_at_rest(const MachineFault& fault, PublishingLoop& loop) {
     const MachineFault first = activity_.has_fault() ? activity_.fault() : fault;
     if (!activity_.has_fault()) { loop.notice({CoordinatorNotice::Kind::Fault, fault.code, fault.motor}); }
     cut_inherited(TakeoverDoubt::AxisInDoubt, loop);
@@ -142,7 +142,7 @@ void JobLifecycle::fail_at_rest(const MachineFault& fault, CoordinatorLoop& loop
     activity_.become(MachineEvent::Fails, activity::InFault{first}, loop.out);
 }
 
-void JobLifecycle::cut_inherited(TakeoverDoubt doubt, CoordinatorLoop& loop) {
+void JobLifecycle::cut_inherited(TakeoverDoubt doubt, PublishingLoop& loop) {
     if (activity_.inherited() == nullptr) { return; }
     count_.cut(activity_.inherited()->line);
     activity_.as<activity::Waiting>()->inherited.reset();
@@ -150,12 +150,12 @@ void JobLifecycle::cut_inherited(TakeoverDoubt doubt, CoordinatorLoop& loop) {
     loop.notice({CoordinatorNotice::Kind::JobCutShort, FaultCode::None, number_of(count_.line()), doubt});
 }
 
-void JobLifecycle::stand_down(CoordinatorLoop& loop) {
+void JobLifecycle::stand_down(PublishingLoop& loop) {
     if (activity_.job() != nullptr) { count_.end(JobOutcome::Stopped); }
     activity_.become(MachineEvent::StoodDown, activity::Standby{}, loop.out);
 }
 
-void brake_on_path(Intent intent, JobLifecycle& jobs, CoordinatorLoop& loop) {
+void brake_on_path(Intent intent, JobLifecycle& jobs, PublishingLoop& loop) {
     jobs.path().runner().stop(loop.next_state);
     jobs.activity().bring_to_rest(intent, loop.out);
 }

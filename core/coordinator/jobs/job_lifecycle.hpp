@@ -25,14 +25,14 @@ public:
 
     /// Records the begin of a job. The caller enters its activity.
     MachineJob begin(JobKind kind, const Command& command, std::shared_ptr<const KnownProgram> program,
-                     const AxisCounts& start, CoordinatorLoop& loop);
+                     const AxisCounts& start, PublishingLoop& loop);
     /// The same for a job in the pause of another one.
     MachineJob begin_in_pause(JobKind kind, std::shared_ptr<const KnownProgram> program, const AxisCounts& start,
-                              CoordinatorLoop& loop);
+                              PublishingLoop& loop);
     /// Enters the next activity of a task. `pause`: the job to whose place the task returns.
     void follow(PathTask task, const PathNext& next, std::optional<activity::Paused> pause, CoordinatorLoop& loop);
     /// The job rests between two legs. If its program asks for an input, it waits for that from now on.
-    void pause(activity::Paused paused, CoordinatorLoop& loop);
+    void pause(activity::Paused paused, PublishingLoop& loop);
     /// Goes on to the next leg of a job that rests, after motors have made up the steps that they lost.
     void go_on(activity::Paused paused, CoordinatorLoop& loop);
     /// Ends the job in motion or held: done or stopped. A job in whose pause it took place waits again, or goes on.
@@ -42,18 +42,18 @@ public:
     /// Further faults change nothing until a reset.
     void fail(const MachineFault& fault, CoordinatorLoop& loop);
     /// A fault that was found when the machine had come to rest.
-    void fail_at_rest(const MachineFault& fault, CoordinatorLoop& loop);
+    void fail_at_rest(const MachineFault& fault, PublishingLoop& loop);
 
     /// The inherited job, if there is one, ends where the axes rest.
-    void cut_inherited(TakeoverDoubt doubt, CoordinatorLoop& loop);
+    void cut_inherited(TakeoverDoubt doubt, PublishingLoop& loop);
     /// Another coordinator owns the machine now. The axes have come to rest without this one.
-    void stand_down(CoordinatorLoop& loop);
+    void stand_down(PublishingLoop& loop);
 
 private:
-    void note_end(const MachineJob& job, JobOutcome outcome, CoordinatorLoop& loop);
-    void finish(const MachineJob& job, JobOutcome outcome, CoordinatorLoop& loop);
+    void note_end(const MachineJob& job, JobOutcome outcome, PublishingLoop& loop);
+    void finish(const MachineJob& job, JobOutcome outcome, PublishingLoop& loop);
     void end_in_pause(const MachineJob& job, activity::Paused pause, JobOutcome outcome, CoordinatorLoop& loop);
-    void end_early(const MachineJob& job, std::optional<std::int32_t> line, FaultCode why, CoordinatorLoop& loop);
+    void end_early(const MachineJob& job, std::optional<std::int32_t> line, FaultCode why, PublishingLoop& loop);
 
     MachineActivity activity_;
     JobCount count_;
@@ -61,7 +61,7 @@ private:
 };
 
 /// Axes that move together come to rest on the path.
-void brake_on_path(Intent intent, JobLifecycle& jobs, CoordinatorLoop& loop);
+void brake_on_path(Intent intent, JobLifecycle& jobs, PublishingLoop& loop);
 /// Axes that move by themselves come to rest.
 void halt_axes(MachineActivity& activity, CoordinatorLoop& loop);
 

@@ -1,5 +1,5 @@
-// The data of one loop of the coordinator: a view for all its parts, and the outputs, which only the job and the
-// coordinator itself write.
+// The data of one loop of the coordinator: a view for all its parts, outputs for those that publish, and orders to axes
+// for those that begin, end or fail a job.
 #pragma once
 
 #include <string>
@@ -39,12 +39,17 @@ struct LoopView {
     std::string label_of(MotorIndex motor) const { return kinematics.label(motor); }
 };
 
-/// The same, with the orders to axes and the loop's outputs.
-struct CoordinatorLoop : LoopView {
-    AxisOrders& orders;
+/// The same, with the loop's outputs.
+struct PublishingLoop : LoopView {
     CoordinatorOutputs& out;
 
     void notice(const CoordinatorNotice& notice) { out.notices.push_back(notice); }
+};
+
+/// The same, with the orders to axes.
+struct CoordinatorLoop : PublishingLoop {
+    AxisOrders& orders;
+
     AxisCommand& order(MotorIndex motor, AxisCommandKind kind) { return orders.give(motor, kind, term); }
     void order_each(MotorSet motors, AxisCommandKind kind) {
         for (const MotorIndex motor : motors) { (void)order(motor, kind); }

@@ -35,7 +35,7 @@ protected:
     }
     CoordinatorLoop loop() {
         out = {};
-        return {{machine, kinematics, axes, programs, Tick{slot * 1000}, slot, slot, term}, orders, out};
+        return {{{machine, kinematics, axes, programs, Tick{slot * 1000}, slot, slot, term}, out}, orders};
     }
     void accept(std::uint64_t id, double x_mm, double y_mm) {
         programs.accept(
