@@ -61,10 +61,6 @@ struct Spline {
     double feed = 0;
 };
 
-struct Dwell {
-    double seconds = 0;
-};
-
 /// A straight move that ends where a probe touches: where its input closes, or opens.
 struct Probing {
     Point target{};

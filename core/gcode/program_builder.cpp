@@ -141,8 +141,8 @@ void ProgramBuilder::take(const Action& action, int line, const Interpreter& int
         this->arc(*arc);
     } else if (const auto* spline = std::get_if<Spline>(&action)) {
         this->spline(*spline);
-    } else if (const auto* dwell = std::get_if<gcode::Dwell>(&action)) {
-        append(lockstep::Dwell{dwell->seconds});
+    } else if (const auto* dwell = std::get_if<Dwell>(&action)) {
+        append(*dwell);
     } else if (const auto* probing = std::get_if<Probing>(&action)) {
         probe(*probing);
     } else if (const auto* happens = std::get_if<Event>(&action)) {

@@ -38,7 +38,7 @@ public:
         } else if (const auto* spline = std::get_if<gcode::Spline>(&action)) {
             gcode::cut_into_arcs(*spline, Point(at_), gcode::spline_tolerance_mm(setup_.chord_tolerance_mm),
                                  [&](const gcode::Action& part) { take(part, line); });
-        } else if (std::holds_alternative<gcode::Dwell>(action)) {
+        } else if (std::holds_alternative<Dwell>(action)) {
             add("dwell", at_, 0);
         }
     }

@@ -293,7 +293,7 @@ void CallList::take(const gcode::Action& action, int line) {
         if (straight_axis) { add("centre", centre); }
     } else if (const auto* spline = std::get_if<gcode::Spline>(&action)) {
         add("spline", {static_cast<double>(spline->controls.size())});
-    } else if (const auto* dwell = std::get_if<gcode::Dwell>(&action)) {
+    } else if (const auto* dwell = std::get_if<Dwell>(&action)) {
         add("dwell", {dwell->seconds});
     } else if (const auto* event = std::get_if<gcode::Event>(&action)) {
         take_event(*event);
