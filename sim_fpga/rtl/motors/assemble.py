@@ -232,9 +232,10 @@ def constants_of(assembler):
 
 
 def sizes_of(assembler):
-    """The parameters of a module that depend on the program."""
+    """The parameters of a module that depend on the program. A motor without outputs has one that the board leaves out,
+    because Verilog has no vector without bits."""
     names = ("TICK_CLOCKS", "INPUTS", "DIGITAL", "ANALOG")
-    return HEAD + ",\n".join(f"parameter {name} = {assembler.names[name]}" for name in names) + "\n"
+    return HEAD + ",\n".join(f"parameter {name} = {max(1, assembler.names[name])}" for name in names) + "\n"
 
 
 def write(directory, assembler, is_check):

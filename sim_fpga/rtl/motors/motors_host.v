@@ -14,7 +14,7 @@ module motors_host #(
     input [MOTOR_BITS-1:0] host_motor,
     input [19:1] host_address,  // in the map: writes words of 64 bits, reads limbs of 16
     input [63:0] write_data,
-    output reg written,         // for one clock
+    output reg written,         // for one clock, and its address is still there
     output reg was_read,        // for one clock
     output [15:0] read_data,    // then
     // The memory, while the core does not use it.
@@ -83,7 +83,7 @@ module motors_host #(
     genvar n;
     generate for (n = 0; n < MOTORS; n = n + 1) begin : motors
         always @(posedge clk) begin
-            if (is_done && is_last && !is_ring && host_motor == n) is_touched[n] <= 1;
+            if (written && !is_ring && host_motor == n) is_touched[n] <= 1;
             else if (untouch && motor == n) is_touched[n] <= 0;
         end
     end endgenerate

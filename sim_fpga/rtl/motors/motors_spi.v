@@ -55,24 +55,27 @@ module motors_spi #(
     assign host_address = {word_address, limb};
     wire next = state == READING ? miso : bits[1];
     wire [15:0] next_crc = {crc[14:0], 1'b0} ^ (crc[15] != next ? 16'h1021 : 16'd0);
-    wire is_right = next_crc == 0;
-    wire busy = shows || show || write;
+    reg busy;                   // a clock later
     wire [7:0] status = {busy, refused, words};
 
-    // The command, when its CRC is there.
-    wire [1:0] kind = received[38:37];
-    wire [4:0] motor = received[36:32];
-    wire accepts = is_right && !busy && kind != 0 && {27'd0, motor} < MOTORS;
+    // A command, or a word to write, is judged in the clock behind that of its last bit, and taken in the next one.
+    reg arrived, judged, is_right, accepts;
+    wire [1:0] kind = received[39:38];
+    wire [4:0] motor = received[37:33];
     // A limb of a word that is read begins with the next bit.
     wire begins_limb = (state == PAUSE && count == 7) ||
         (state == READING && (count == 15 || count == 31 || count == 47 || count == 79));
 
-    initial {clocks, bits, state, count, received, sent, fetched, has_fetched, refused, words} = 0;
+    initial {clocks, bits, state, count, received, sent, fetched, has_fetched, refused, words, busy} = 0;
+    initial {arrived, judged, is_right, accepts} = 0;
     initial {selects, crc} = {2'b11, 16'hffff};
     initial {word_address, limb, write, read, host_motor, write_data, show} = 0;
     always @(posedge clk) begin
         {clocks, selects, bits} <= {clocks[1:0], sck, selects[0], select_n, bits[0], mosi};
-        show <= 0;
+        {show, arrived, judged} <= {2'd0, arrived};
+        busy <= shows || show || write;
+        is_right <= crc == 0;
+        accepts <= crc == 0 && !busy && kind != 0 && {27'd0, motor} < MOTORS;
         if (write && written) begin
             write <= 0;
             words <= words + 1'b1;
@@ -95,20 +98,7 @@ module motors_spi #(
             if (begins_limb && has_fetched) {read, has_fetched, sent} <= {2'b10, fetched};
             else if (begins_limb) state <= DEAF;
             case (state)
-                COMMAND: if (count == 39) begin
-                    {count, crc} <= {7'd0, 16'hffff};
-                    state <= !accepts ? DEAF : kind == READ ? PAUSE : kind == WRITE ? WRITING : DEAF;
-                    refused <= !accepts;
-                    if (accepts) begin
-                        words <= 0;
-                        host_motor <= motor[MOTOR_BITS-1:0];
-                        word_address <= received[31:15];
-                        limb <= kind == READ ? 2'd3 : 2'd0;
-                        read <= kind == READ;
-                        has_fetched <= 0;
-                        show <= kind == SHOW;
-                    end
-                end
+                COMMAND: arrived <= count == 39;
                 PAUSE: if (count == 7) begin
                     {count, crc} <= {7'd0, 16'hffff};
                     if (has_fetched) state <= READING;
@@ -120,14 +110,28 @@ module motors_spi #(
                 WRITING: begin
                     if (count == 63 && write) {state, refused} <= {DEAF, 1'b1};
                     else if (count == 63) write_data <= {received, next};
-                    if (count == 79) begin
-                        {count, crc} <= {7'd0, 16'hffff};
-                        if (is_right) write <= 1;
-                        else {state, refused} <= {DEAF, 1'b1};
-                    end
+                    arrived <= count == 79;
                 end
                 default: ;
             endcase
+        end else if (judged) begin
+            {count, crc} <= {7'd0, 16'hffff};
+            if (state == WRITING) begin
+                if (is_right) write <= 1;
+                else {state, refused} <= {DEAF, 1'b1};
+            end else begin
+                state <= !accepts ? DEAF : kind == READ ? PAUSE : kind == WRITE ? WRITING : DEAF;
+                refused <= !accepts;
+                if (accepts) begin
+                    words <= 0;
+                    host_motor <= motor[MOTOR_BITS-1:0];
+                    word_address <= received[32:16];
+                    limb <= kind == READ ? 2'd3 : 2'd0;
+                    read <= kind == READ;
+                    has_fetched <= 0;
+                    show <= kind == SHOW;
+                end
+            end
         end
     end
 endmodule

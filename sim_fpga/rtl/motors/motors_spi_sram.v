@@ -25,23 +25,19 @@ module motors_spi_sram #(
     output [DIGITAL*MOTORS-1:0] digital,
     output [ANALOG*MOTORS-1:0] analog
 );
-    wire clk, writes, write, read, written, was_read, show, shows;
-    wire [MOTOR_BITS-1:0] host_motor;
-    wire [19:1] host_address;
-    wire [63:0] write_data;
+    wire begun, writes;
+    reg clk;
     wire [MOTOR_BITS+12:0] address;
-    wire [15:0] data, word, read_data;
-    motors_spi #(.MOTORS(MOTORS), .MOTOR_BITS(MOTOR_BITS)) spi (.clk(clk), .select_n(select_n), .sck(sck), .mosi(mosi),
-        .miso(miso), .write(write), .read(read), .host_motor(host_motor), .host_address(host_address),
-        .write_data(write_data), .written(written), .was_read(was_read), .read_data(read_data), .show(show),
-        .shows(shows));
+    wire [15:0] data, word;
+    initial clk = 0;
+    always @(posedge oscillator) clk <= begun && !clk;
+    motors_start start (.fast(oscillator), .is_stable(1'b1), .begun(begun));
     motors_sram #(.ADDRESS_BITS(MOTOR_BITS + 13)) sram (.fast(oscillator), .clk(clk), .write(writes),
         .address(address), .data(data), .word(word), .we_n(sram_we_n), .oe_n(sram_oe_n), .pin_address(sram_address),
         .drives(sram_drives), .pin_data(sram_write_data), .pin_word(sram_read_data));
-    motors_chip #(.MOTORS(MOTORS), .MOTOR_BITS(MOTOR_BITS), .HAS_MEMORY(0), .TICK_CLOCKS(TICK_CLOCKS), .INPUTS(INPUTS),
-        .DIGITAL(DIGITAL), .ANALOG(ANALOG)) chip (.clk(clk), .write(write), .read(read), .host_motor(host_motor),
-        .host_address(host_address), .write_data(write_data), .written(written), .was_read(was_read),
-        .read_data(read_data), .show(show), .shows(shows), .memory_writes(writes), .memory_address(address),
-        .memory_data(data), .memory_word(word), .input_pins(inputs), .step_pins(step), .direction_pins(direction),
-        .enable_pins(enable), .digital_pins(digital), .analog_pins(analog));
+    motors_spi_chip #(.MOTORS(MOTORS), .MOTOR_BITS(MOTOR_BITS), .HAS_MEMORY(0), .TICK_CLOCKS(TICK_CLOCKS),
+        .INPUTS(INPUTS), .DIGITAL(DIGITAL), .ANALOG(ANALOG)) chip (.clk(clk), .select_n(select_n), .sck(sck),
+        .mosi(mosi), .miso(miso), .memory_writes(writes), .memory_address(address), .memory_data(data),
+        .memory_word(word), .inputs(inputs), .step(step), .direction(direction), .enable(enable), .digital(digital),
+        .analog(analog));
 endmodule

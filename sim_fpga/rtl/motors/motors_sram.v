@@ -1,5 +1,5 @@
 // The memory of all motors in an asynchronous SRAM beside the chip. It writes or reads in each clock, as
-// motors_memory.v does, and makes the clock: half of `fast`.
+// motors_memory.v does.
 //
 // A clock that writes has the pulse of we_n and the data in its second half, so that the address is there before. The
 // pulse ends with an edge of `fast`. The address changes with `clk`, which is later by the way through a register to
@@ -8,7 +8,7 @@ module motors_sram #(
     parameter ADDRESS_BITS = 16
 ) (
     input fast,
-    output clk,
+    input clk,                  // half of `fast`
     input write,
     input [ADDRESS_BITS-1:0] address,
     input [15:0] data,
@@ -21,13 +21,10 @@ module motors_sram #(
     output reg [15:0] pin_data,
     input [15:0] pin_word
 );
-    reg half;
-    assign clk = half;
-    wire pulses = oe_n && half; // the next half of the clock is the second one
-    initial {half, we_n, oe_n, drives} = 4'b0100;
+    wire pulses = oe_n && clk;  // the next half of the clock is the second one
+    initial {we_n, oe_n, drives} = 3'b100;
     initial {pin_address, pin_data, word} = 0;
     always @(posedge fast) begin
-        half <= !half;
         we_n <= !pulses;
         drives <= pulses;
     end

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim_fpga/spi/chip_motor.hpp"
-#include "tests/rtl/boards/board_pins.hpp"
+#include "tests/rtl/boards/olimex_pins.hpp"
 #include "tests/rtl/boards/spi_host.hpp"
 #include "tests/rtl/motors/joined_frames.hpp"
 
@@ -23,6 +23,7 @@ constexpr std::uint64_t kOtherChecksum = 0x1234'5678'9ABC'DEF0;
 /// The wires to the chip.
 class Wires final : public spi::SpiPort {
 public:
+    Wires() { board_->start(); }
     bool exchange(std::span<spi::Transaction> transactions) override {
         for (spi::Transaction& one : transactions) {
             switch (line_) {
@@ -39,8 +40,11 @@ public:
     }
     void become(Line line) { line_ = line; }
     /// The chip is without power for a while.
-    void power_up() { board_ = std::make_unique<BoardPins>(); }
-    BoardPins& board() { return *board_; }
+    void power_up() {
+        board_ = std::make_unique<OlimexPins>();
+        board_->start();
+    }
+    OlimexPins& board() { return *board_; }
     std::int64_t now_ns() const { return static_cast<std::int64_t>(board_->periods()) * 10; }
 
 private:
@@ -73,7 +77,7 @@ private:
         (void)board_->transfer(false, false);
     }
 
-    std::unique_ptr<BoardPins> board_ = std::make_unique<BoardPins>();
+    std::unique_ptr<OlimexPins> board_ = std::make_unique<OlimexPins>();
     Line line_ = Line::Good;
     std::mt19937 random_{1};
 };

@@ -39,6 +39,7 @@ public:
     LiveBoard(const MachineSetup& machine, const std::string& board) {
         chip_.pins.select_n = 1;
         chip_.pins.sck = chip_.pins.mosi = 0;
+        chip_.pins.memory_word = 0;
         const auto motors = motors_of(machine);
         for (unsigned n = 0; n < kMotors; ++n) {
             const DeviceName name{DeviceName::Kind::Linked, board, n};

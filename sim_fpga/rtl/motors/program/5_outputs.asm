@@ -11,6 +11,7 @@ change_directly:
     mov NEW_MASK, A[1]
     and NEW_MASK, #(1 << DIGITAL) - 1
     mov SAFE_ANALOG, A[2]
+    and SAFE_ANALOG, #(1 << ANALOG) - 1
     call change_levels
     call first_channel
 change_next_directly:
@@ -24,7 +25,7 @@ change_next_directly:
     call change_analog
 changed_directly:
     call next_channel
-    jnz change_next_directly
+    jnc change_next_directly
     ret
 
 first_channel:
@@ -123,7 +124,7 @@ slides:
     call keep_value
 slid:
     call next_channel
-    jnz slide_next
+    jnc slide_next
     ret
 
 ; Slopes end. No change of a frame is due.
@@ -139,7 +140,7 @@ end_next:
     call change_analog
 has_ended:
     call next_channel
-    jnz end_next
+    jnc end_next
     ret
 
 ; Outputs become safe: A is a word like OUTPUTS_AT_CUT.
@@ -159,7 +160,7 @@ make_next_safe:
     call change_analog
 is_safe:
     call next_channel
-    jnz make_next_safe
+    jnc make_next_safe
     ret
 
 ; The changes of the present frame's body or tail count from now on.
