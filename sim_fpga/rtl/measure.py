@@ -4,7 +4,8 @@
 Usage: measure.py README            writes the table again
        measure.py README --check    exits 1 if a row differs; places only designs of one axis, which takes a minute
        measure.py README --device   writes the table of the device of one motor again, which takes minutes
-       measure.py README --motors   writes the table of the motors' chip again, from five placements
+       measure.py README --motors   writes the table of the motors' chip again, from five placements; with --check it
+                                    exits 1 if the table differs
 """
 import concurrent.futures
 import json
@@ -18,8 +19,8 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 BEGIN, END = "<!-- table -->\n", "<!-- end -->\n"
 HEAD = """\
-| design | axes | LUT4 | flip-flops | block RAM | UP5K, MHz | HX8K, MHz | steps/s for each axis, UP5K | HX8K |
-|---|---|---|---|---|---|---|---|---|
+| design | axes | LUT4 | flip-flops | block RAM | UP5K, MHz | HX8K, MHz | steps/s for each axis, UP5K | HX8K | the paper's own |
+|---|---|---|---|---|---|---|---|---|---|
 """
 DEVICE_BEGIN = "<!-- device -->\n"
 DEVICE_HEAD = """\
@@ -35,6 +36,15 @@ SEEDS = range(1, 6)
 PARTS = {
     "UP5K": ["--up5k", "--package", "sg48", "--freq", "48"],
     "HX8K": ["--hx8k", "--package", "ct256", "--freq", "150"],
+}
+# What a paper prints of the part and the speed of its own design, by the design's folder and its number of axes.
+OF_PAPER = {
+    ("lam", 1): "335 logic elements of a Cyclone II, LUT4 with a flip-flop; 1,667 steps/s at 10 kHz (Table 1)",
+    ("carrica", 3): "an XC4006 of 6,000 gates, 256 blocks of two LUT4 and a LUT3; words of 16 bits; 50,000 steps/s, "
+                    "a T_c of 400 ns at 40 MHz (Sections III, V)",
+    ("lai", 1): "an adder and two registers of 8 bits (Section 3)",
+    ("lai", 2): "a soft-core 8051 plans; at most 255 pulses per 6.5 ms, four in the experiment (Section 3)",
+    ("ranade", 6): "an XC3S400, which has 7,168 LUT4; 100,000 steps/s, a tick of 1 us at 20 MHz",
 }
 FLIP_FLOP, LUT, RAM = re.compile(r"SB_DFF"), re.compile(r"SB_LUT4"), re.compile(r"SB_RAM40_4K")
 SPRAM = re.compile(r"SB_SPRAM256KA")
@@ -180,7 +190,8 @@ def row(design, module, axes, only_cells, work):
         return cells
     clocks = megahertz(design, module, copies, work)
     return (cells + [f"{int(clock)}" for clock in clocks]
-            + [rounded(clock * 1e6 / design.clocks_per_step) for clock in clocks])
+            + [rounded(clock * 1e6 / design.clocks_per_step) for clock in clocks]
+            + [OF_PAPER.get((design.folder, axes), "")])
 
 
 def device_row(design):
@@ -222,7 +233,7 @@ def text(rows, head=HEAD):
 
 def differences(rows, table):
     old = {tuple(cells[:2]): cells for cells in
-           ([cell.strip() for cell in line.strip("|\n ").split("|")] for line in table.splitlines()[2:])}
+           ([cell.strip() for cell in line.split("|")[1:-1]] for line in table.splitlines()[2:])}
     if len(old) != len(rows):
         yield f"the table has {len(old)} rows, and there are {len(rows)} designs"
     for cells in rows:
@@ -234,7 +245,12 @@ def differences(rows, table):
 def main():
     readme, check = pathlib.Path(sys.argv[1]), "--check" in sys.argv
     if "--motors" in sys.argv:
-        write_table(readme, MOTORS_BEGIN, text([motors_row(design) for design in motors()], MOTORS_HEAD))
+        table = text([motors_row(design) for design in motors()], MOTORS_HEAD)
+        if not check:
+            write_table(readme, MOTORS_BEGIN, table)
+        elif MOTORS_BEGIN + table + END not in readme.read_text():
+            print(f"now\n{table}\nwhich is not in {readme}\nremedy: {sys.argv[0]} {readme} --motors")
+            return 1
         return 0
     if "--device" in sys.argv:
         write_table(readme, DEVICE_BEGIN, text([device_row(design) for design in devices()], DEVICE_HEAD))

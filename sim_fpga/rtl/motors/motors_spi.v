@@ -87,7 +87,7 @@ module motors_spi #(
             if (limb == 0) word_address <= word_address + 1'b1;
         end
         if (is_off) begin
-            {state, count, crc} <= {COMMAND, 7'd0, 16'hffff};
+            {state, count, crc, arrived, judged} <= {COMMAND, 7'd0, 16'hffff, 2'd0};
             sent <= {status, ~status};
             read <= 0;
         end else if (rises) begin
@@ -134,4 +134,7 @@ module motors_spi #(
             end
         end
     end
+`ifdef PROOF
+`include "motors_spi_properties.vh"
+`endif
 endmodule
