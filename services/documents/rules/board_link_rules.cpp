@@ -52,15 +52,18 @@ std::string fault_of(const MachineSetup& machine, const MotorConfig& motor, cons
 }
 
 /// The bits a second that a motor's words take on an SPI (sim_fpga/rtl/motors/motors_spi.v): each step's tick, the
-/// pieces of full frames, and in each slot a look at what the device shows and some orders.
+/// pieces of full frames, and in each slot a look at what the device shows and some orders. A frame of homing is
+/// shorter (core/axis/own_moves): a header, a piece and a tail, the ring's head and the order that arms it, each 5 ms.
 double spi_bits_per_s(const MachineSetup& machine, const MotorConfig& motor) {
     constexpr double kWordBits = 80;
     constexpr double kPieceBits = 4 * kWordBits;
+    constexpr double kHomingBits = 200 * (3 * kPieceBits + 2 * kWordBits);
     constexpr double kSlotBits = 24 * kWordBits + 6 * 4 * kWordBits;
     const double slots_per_s = 1e6 / static_cast<double>(machine.timing.slot_us);
     const double steps_per_s = motor.max_velocity_mm_s * motor.steps_per_mm;
     const double pieces_per_s = frame_pieces(machine.timing) * slots_per_s / machine.timing.frame_slots;
-    return steps_per_s * kWordBits + pieces_per_s * kPieceBits + slots_per_s * kSlotBits;
+    const double homing = motor.homing.way == HomingWay::InPlace ? 0 : kHomingBits;
+    return steps_per_s * kWordBits + std::max(pieces_per_s * kPieceBits, homing) + slots_per_s * kSlotBits;
 }
 
 /// Checks one board, whose block has the number `number` among those with a link.

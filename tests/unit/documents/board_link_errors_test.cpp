@@ -70,7 +70,7 @@ TEST(BoardLinks, AnSpiCarriesTheWordsOfItsMotors) {
 
 /// As docs/fpga.md says.
 TEST(BoardLinks, AnSpiCarriesAsManyMotorsAsItsDocumentSays) {
-    const auto suits = [](const char* link, int motors, int steps_per_s) {
+    const auto suits = [](const char* link, int motors, int steps_per_s, const char* homing = "") {
         std::string text =
             "name: \"m\" tick_ns: 50000 timing { slot_us: 40000 stall_slots: 2 late_check_slots: 1 "
             "freshness_slots: 3 send_ahead_slots: 14 frame_slots: 5 clock_error_limit_us: 5000 "
@@ -78,8 +78,8 @@ TEST(BoardLinks, AnSpiCarriesAsManyMotorsAsItsDocumentSays) {
         for (int n = 0; n < motors; ++n) {
             text += fmt::format(
                 "axis {{ name: \"A{0}\" device: \"board:f/{0}\" steps_per_mm: 50 start_velocity_mm_s: 1 "
-                "max_velocity_mm_s: {1} max_accel_mm_s2: 500 position_min_mm: 0 position_max_mm: 9 }}\n",
-                n, steps_per_s / 50);
+                "max_velocity_mm_s: {1} max_accel_mm_s2: 500 position_min_mm: 0 position_max_mm: 9 {2} }}\n",
+                n, steps_per_s / 50, homing);
         }
         const auto read = parse_machine(text + "board { name: \"f\" link: \"" + link + "\" }");
         if (!read) { EXPECT_THAT(to_text("m", read.error()), HasSubstr("bit/s of link")); }
@@ -88,7 +88,10 @@ TEST(BoardLinks, AnSpiCarriesAsManyMotorsAsItsDocumentSays) {
     EXPECT_TRUE(suits("spi:/dev/spidev0.0", 3, 9'800)) << "as fast as a plan with ticks of 50 us can be";
     EXPECT_FALSE(suits("spi:/dev/spidev0.0", 4, 9'800));
     EXPECT_TRUE(suits("spi:/dev/spidev0.0@6250000", 4, 9'800));
-    EXPECT_TRUE(suits("spi:/dev/spidev0.0@6250000", 8, 5'000));
+    EXPECT_TRUE(suits("spi:/dev/spidev0.0@6250000", 8, 3'000));
+    // Homing needs more than a program of such long slots: 8 * (5,000 * 80 + 200 * 14 * 80 + 25 * 48 * 80) bit/s.
+    EXPECT_FALSE(suits("spi:/dev/spidev0.0@6250000", 8, 5'000));
+    EXPECT_TRUE(suits("spi:/dev/spidev0.0@6250000", 8, 5'000, "homing { in_place: true }"));
 }
 
 TEST(BoardLinks, AreReadAgainAsTheyWereWrittenAndArePartOfTheHash) {
