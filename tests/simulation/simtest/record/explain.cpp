@@ -24,7 +24,8 @@ enum class Cause : std::uint8_t {
     Device,
     SilentDevice,
     SilentLink,
-    OwnClocks
+    OwnClocks,
+    StoppedHoming
 };
 
 struct Explanation {
@@ -63,6 +64,8 @@ constexpr std::array kExplanations{
     Explanation{Cause::SetClock, FaultCode::FrameLate},
     Explanation{Cause::SetClock, FaultCode::FramesDiffer},
     Explanation{Cause::SetClock, FaultCode::AxisLost},
+    // Its pulses ceased at a touch, but by its new clock at another time than those of the others.
+    Explanation{Cause::SetClock, FaultCode::NotAtRest},
     Explanation{Cause::Switch, FaultCode::LimitHit},
     Explanation{Cause::Switch, FaultCode::HomeSwitchStuck},
     Explanation{Cause::Switch, FaultCode::HomeSwitchNotFound},
@@ -92,6 +95,10 @@ constexpr std::array kExplanations{
     Explanation{Cause::Device, FaultCode::MotorsSkewed},
     // Its device stopped one motor of an axis on the path, before the others.
     Explanation{Cause::DamagedFrame, FaultCode::MotorsSkewed},
+    // A simulated device that stood still catches up with its inputs as they are now. So it sees a touch too early.
+    Explanation{Cause::SilentDevice, FaultCode::TouchMissed},
+    // One motor of an axis was stopped before its first frame, and another one braked in it. So they are farther apart.
+    Explanation{Cause::StoppedHoming, FaultCode::MotorsSkewed},
     // A device that takes no segments can run out of room for frames before it counts as lost.
     Explanation{Cause::SilentDevice, FaultCode::DeviceFault},
     // Orders that wait for a link reach the device after the start of their frame. It runs the tail then.
@@ -127,6 +134,10 @@ std::vector<Cause> causes_in(const Recording& recording) {
     if (!recording.emergencies.empty()) { causes.push_back(Cause::EmergencyStop); }
     if (recording.was_stop_pressed()) { causes.push_back(Cause::StopInput); }
     if (recording.was_moved_by_hand) { causes.push_back(Cause::Hand); }
+    const auto is_stopped_homing = [](const JobRecord& job) {
+        return job.homing && job.outcome == JobOutcome::Stopped;
+    };
+    if (std::ranges::any_of(recording.jobs, is_stopped_homing)) { causes.push_back(Cause::StoppedHoming); }
     if (recording.network.lost > 0) { causes.push_back(Cause::Loss); }
     if (recording.network.corrupted > 0) { causes.push_back(Cause::Corruption); }
     for (const VirtualFault& fault : recording.faults) {

@@ -275,9 +275,12 @@ double JobPlayer::streamed_seconds() const {
     return seconds;
 }
 
-/// Records a refusal that an undisturbed machine must not give.
+/// Records a refusal that an undisturbed machine must not give. An owner may be replaced by a fault that began before.
 void JobPlayer::refused(const char* what, const Reply& reply) {
-    if (!disturbed()) { bench_.object(what, "it was " + answer_text(reply)); }
+    const auto& claims = bench_.recording().claims;
+    const bool has_new_owner =
+        reply.fault == FaultCode::CoordinatorChanged && !claims.empty() && claims.back().at >= job_.began;
+    if (!disturbed() && !has_new_owner) { bench_.object(what, "it was " + answer_text(reply)); }
 }
 
 /// Continues to the next event, planned or not. A hold that one coordinator refused may be obeyed by another later.
