@@ -40,7 +40,8 @@ void go_on_at_input(JobLifecycle& jobs, CoordinatorLoop& loop);
 /// it cannot be held. A job that waits for an input is held.
 void hold_for_inputs(JobLifecycle& jobs, CoordinatorLoop& loop);
 
-/// An input of a probe touched in a motion that does not probe with it. What moves comes to rest as the input asks.
+/// A probe touched something in a motion that is no probing move of it. The motion ends as at_touch_in_motion of its
+/// input says.
 void rest_at_touch(std::size_t input, JobLifecycle& jobs, CoordinatorLoop& loop);
 
 /// The client with the lease fell silent. Its job on a path runs on or is held, as configured.
